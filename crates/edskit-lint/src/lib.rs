@@ -1,0 +1,1 @@
+//! edskit-lint

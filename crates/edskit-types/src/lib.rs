@@ -1,0 +1,2 @@
+//! The words of CANopen.
+#![no_std]

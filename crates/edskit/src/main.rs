@@ -1,0 +1,3 @@
+//! The edskit command line.
+
+fn main() {}
