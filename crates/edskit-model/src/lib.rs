@@ -1,1 +1,29 @@
-//! edskit-model
+//! Text and meaning of CANopen EDS, DCF and nodelist.cpj files (CiA 306).
+//!
+//! - [`Document`] is the text: every byte, every line, lossless. Parsing never fails.
+//! - [`Datasheet`] is the meaning: sections, objects, values, each with its place in the text.
+//! - [`nature`] tells what a file is before anybody reads it as an EDS.
+//!
+//! The crate opens no file, prints nothing and knows no clock.
+
+mod datasheet;
+mod document;
+mod key;
+pub mod nature;
+mod section;
+mod span;
+mod value;
+
+pub use datasheet::{
+    Channel, ChannelOffset, Commissioning, Datasheet, Description, DeviceInfo, DictionaryEntry, Entry, Field,
+    FileInfo, ImplicitPdo, ListItem, Module, ModuleCount, Object, Section, SubExtension, SubObject, Tool,
+    Topology, TopologyNode,
+};
+pub use document::{Document, Encoding, Line, LineEnding, LineKind, Position, is_merge_marker};
+pub use key::{Key, KeyGroup, KeyName, Shape};
+pub use section::{ModuleSection, SectionKind};
+pub use span::Span;
+pub use value::{
+    EvaluationError, Formula, FormulaError, FormulaErrorKind, FormulaStyle, Number, NumberError,
+    NumberErrorKind, Radix, Value, ValueError, ValueErrorKind, octets,
+};
