@@ -1,1 +1,24 @@
-//! edskit-lint
+//! Lint rules for CANopen EDS, DCF and nodelist.cpj files.
+//!
+//! A [`Linter`] walks a [`Datasheet`](edskit_model::Datasheet) once and calls each [`Rule`] at the level that it asked
+//! for. Rules return [`Finding`]s: data, with places in the file, a help text and edits that would mend them. The
+//! crate opens no file and prints nothing.
+//!
+//! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
+
+mod context;
+mod finding;
+mod inline_comment;
+mod linter;
+mod rule;
+mod rule_set;
+pub mod rules;
+mod similar;
+#[cfg(test)]
+mod testing;
+
+pub use context::{Context, Report, Variable};
+pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
+pub use linter::Linter;
+pub use rule::{ALL_FILES, Check, DEVICE_FILES, FileKind, FileKinds, Group, Rule};
+pub use rule_set::{RuleSet, UnknownRule, find};

@@ -1,0 +1,128 @@
+//! What checks see, and where they report.
+
+use crate::{FileKind, Finding, Label, Rule, Severity};
+use edskit_model::{Datasheet, Description, Document, Field, Span, Value};
+use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
+
+/// The file that is linted.
+pub struct Context<'a> {
+    /// The typed reading.
+    pub sheet: &'a Datasheet,
+    /// What kind of file it is.
+    pub kind: FileKind,
+    /// The file's own name without folders, where it has one.
+    pub file_name: Option<&'a str>,
+}
+
+impl<'a> Context<'a> {
+    /// The text.
+    pub fn document(&self) -> &'a Document {
+        self.sheet.document()
+    }
+
+    /// The bytes.
+    pub fn source(&self) -> &'a [u8] {
+        self.sheet.document().to_bytes()
+    }
+
+    /// The start of the file, for findings that have no other place.
+    pub fn start(&self) -> Span {
+        self.sheet.document().lines().first().map_or(Span::at(0), |line| line.trimmed(self.source()))
+    }
+
+    /// `PDOMapping` for mapping entries and so on may name objects that only modules bring.
+    pub fn is_modular(&self) -> bool {
+        self.sheet.supported_modules().is_some()
+    }
+}
+
+/// An object or sub-object with its attributes read once for all rules.
+///
+/// Attributes are `None` where the entry is missing or empty, which is the same.
+pub struct Variable<'a> {
+    /// The index.
+    pub index: Index,
+    /// The sub-index; `None` for the object's own section.
+    pub sub_index: Option<SubIndex>,
+    /// The section.
+    pub description: Description<'a>,
+    /// The object code as written.
+    pub object_type: Option<Field<'a, ObjectCode>>,
+    /// The object code that counts (VAR where none is written); `None` where it cannot be read.
+    pub code: Option<ObjectCode>,
+    /// The data type's index as written.
+    pub data_type: Option<Field<'a, u16>>,
+    /// The data type, if it is one of CiA 301.
+    pub standard_type: Option<DataType>,
+    /// The access as written.
+    pub access_type: Option<Field<'a, AccessType>>,
+    /// The mapping right as written.
+    pub pdo_mapping: Option<Field<'a, bool>>,
+    /// The default value, read by the data type.
+    pub default_value: Option<Field<'a, Value<'a>>>,
+    /// The value of a DCF, read by the data type.
+    pub parameter_value: Option<Field<'a, Value<'a>>>,
+    /// The lower limit, read by the data type.
+    pub low_limit: Option<Field<'a, Value<'a>>>,
+    /// The upper limit, read by the data type.
+    pub high_limit: Option<Field<'a, Value<'a>>>,
+}
+
+impl<'a> Variable<'a> {
+    pub(crate) fn new(index: Index, sub_index: Option<SubIndex>, description: Description<'a>) -> Self {
+        let object_type = description.object_type();
+        let code = object_type.map_or(Some(ObjectCode::Var), Field::known);
+        let data_type = description.data_type();
+        Self {
+            index,
+            sub_index,
+            description,
+            object_type,
+            code,
+            data_type,
+            standard_type: description.standard_type(),
+            access_type: description.access_type(),
+            pdo_mapping: description.pdo_mapping(),
+            default_value: description.default_value(),
+            parameter_value: description.parameter_value(),
+            low_limit: description.low_limit(),
+            high_limit: description.high_limit(),
+        }
+    }
+
+    /// Whether it holds a value of its own: a sub-object, a VAR, a DOMAIN, a DEFTYPE. Not an ARRAY or RECORD.
+    pub fn holds_value(&self) -> bool {
+        self.sub_index.is_some() || self.code.is_some_and(|code| !code.has_sub_objects())
+    }
+
+    /// `1018h` or `1018h sub-index 01h`.
+    pub fn place(&self) -> String {
+        match self.sub_index {
+            None => self.index.to_string(),
+            Some(sub_index) => format!("{} sub-index {sub_index}", self.index),
+        }
+    }
+}
+
+/// Where the rule that runs puts its findings.
+pub struct Report {
+    pub(crate) rule: &'static Rule,
+    pub(crate) severity: Severity,
+    pub(crate) findings: Vec<Finding>,
+}
+
+impl Report {
+    /// Adds a finding at `span`; labels, help and a fix follow on what is returned.
+    pub fn add(&mut self, span: Span, message: impl Into<String>) -> &mut Finding {
+        let position = self.findings.len();
+        self.findings.push(Finding {
+            rule: self.rule,
+            severity: self.severity,
+            message: message.into(),
+            labels: vec![Label { span, text: String::new() }],
+            help: None,
+            fix: None,
+        });
+        &mut self.findings[position]
+    }
+}

@@ -1,0 +1,192 @@
+//! What a rule is, and how one is declared.
+
+use crate::{Context, Report, Severity, Variable};
+use core::fmt;
+use edskit_model::{Entry, Line, Object, Section};
+
+/// A group of rules: the letters of their codes.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Group {
+    /// SYN: the text of the file.
+    Syntax,
+    /// FIL: `[FileInfo]`.
+    FileInfo,
+    /// DEV: `[DeviceInfo]`.
+    DeviceInfo,
+    /// LST: the lists of objects.
+    Lists,
+    /// OBJ: the attributes of objects.
+    Objects,
+    /// VAL: data types and values.
+    Values,
+}
+
+impl Group {
+    /// Every group, in the order of the catalogue.
+    pub const ALL: [Group; 6] =
+        [Self::Syntax, Self::FileInfo, Self::DeviceInfo, Self::Lists, Self::Objects, Self::Values];
+
+    /// The letters that the codes of the group begin with.
+    pub const fn prefix(self) -> &'static str {
+        match self {
+            Self::Syntax => "SYN",
+            Self::FileInfo => "FIL",
+            Self::DeviceInfo => "DEV",
+            Self::Lists => "LST",
+            Self::Objects => "OBJ",
+            Self::Values => "VAL",
+        }
+    }
+
+    /// What the group is about.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Syntax => "Syntax",
+            Self::FileInfo => "File information",
+            Self::DeviceInfo => "Device information",
+            Self::Lists => "Lists of objects",
+            Self::Objects => "Objects and their attributes",
+            Self::Values => "Data types and values",
+        }
+    }
+}
+
+/// What kind of file is linted.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum FileKind {
+    /// An electronic data sheet.
+    Eds,
+    /// A device configuration file.
+    Dcf,
+    /// A nodelist.cpj.
+    Cpj,
+}
+
+impl FileKind {
+    /// The kind by the ending of a file name, in any case; an EDS where the ending says nothing.
+    pub fn of(name: &str) -> Self {
+        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+        if ending.eq_ignore_ascii_case("dcf") {
+            Self::Dcf
+        } else if ending.eq_ignore_ascii_case("cpj") {
+            Self::Cpj
+        } else {
+            Self::Eds
+        }
+    }
+}
+
+/// Which files a rule looks at.
+pub type FileKinds = &'static [FileKind];
+
+/// Files that describe a device.
+pub const DEVICE_FILES: FileKinds = &[FileKind::Eds, FileKind::Dcf];
+/// Every file.
+pub const ALL_FILES: FileKinds = &[FileKind::Eds, FileKind::Dcf, FileKind::Cpj];
+
+/// The check of a rule, with the level it is called at. The engine walks the file once.
+#[derive(Clone, Copy)]
+pub enum Check {
+    /// Once for the file.
+    File(fn(&Context<'_>, &mut Report)),
+    /// For every line.
+    Line(fn(&Context<'_>, &Line, &mut Report)),
+    /// For every section, doubled ones too.
+    Section(fn(&Context<'_>, Section<'_>, &mut Report)),
+    /// For every `key=value` entry, doubled ones too.
+    Entry(fn(&Context<'_>, Entry<'_>, &mut Report)),
+    /// For every described object of the device.
+    Object(fn(&Context<'_>, Object<'_>, &mut Report)),
+    /// For every described object or sub-object of the device, with its attributes read.
+    Variable(fn(&Context<'_>, &Variable<'_>, &mut Report)),
+}
+
+/// One rule: what it is called, what it means, and its check.
+pub struct Rule {
+    /// The stable code, three letters and three digits: `SYN013`.
+    pub code: &'static str,
+    /// The readable name: `duplicate-section`.
+    pub name: &'static str,
+    /// The group, which the code begins with.
+    pub group: Group,
+    /// How bad its findings are, where the check does not say otherwise.
+    pub severity: Severity,
+    /// Whether it runs where nobody selects it.
+    pub enabled: bool,
+    /// The first release that has it.
+    pub since: &'static str,
+    /// Which files it looks at.
+    pub files: FileKinds,
+    /// Documentation in Markdown, one blank before each line.
+    pub(crate) raw_docs: &'static str,
+    /// The check.
+    pub check: Check,
+}
+
+impl Rule {
+    /// The documentation in Markdown: a summary, then the headings "What it does", "Why is this bad", "Example",
+    /// "Use instead" and "References".
+    pub fn docs(&self) -> String {
+        let lines = self.raw_docs.lines().map(|line| line.strip_prefix(' ').unwrap_or(line));
+        lines.collect::<Vec<_>>().join("\n")
+    }
+
+    /// The first line of the documentation.
+    pub fn summary(&self) -> &'static str {
+        self.raw_docs.lines().next().unwrap_or_default().trim()
+    }
+
+    /// The text under a heading of the documentation.
+    pub fn section(&self, heading: &str) -> Option<String> {
+        let docs = self.docs();
+        let mut parts = docs.split("\n## ").skip(1);
+        let text = parts.find_map(|part| part.strip_prefix(heading)?.strip_prefix('\n'));
+        text.map(|text| text.trim().to_owned())
+    }
+}
+
+impl fmt::Debug for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.code, self.name)
+    }
+}
+
+impl PartialEq for Rule {
+    fn eq(&self, other: &Self) -> bool {
+        self.code == other.code
+    }
+}
+
+impl Eq for Rule {}
+
+/// Declares a rule: its documentation, its metadata, its check.
+macro_rules! rule {
+    (
+        $(#[doc = $doc:literal])*
+        pub(crate) static $rule:ident = {
+            code: $code:literal,
+            name: $name:literal,
+            group: $group:ident,
+            severity: $severity:ident,
+            $(enabled: $enabled:literal,)?
+            since: $since:literal,
+            files: $files:ident,
+            check: $level:ident($check:path),
+        }
+    ) => {
+        #[doc = concat!("`", $code, "` ", $name)]
+        pub(crate) static $rule: $crate::Rule = $crate::Rule {
+            code: $code,
+            name: $name,
+            group: $crate::Group::$group,
+            severity: $crate::Severity::$severity,
+            enabled: [$($enabled,)? true][0],
+            since: $since,
+            files: $crate::rule::$files,
+            raw_docs: concat!($($doc, "\n"),*),
+            check: $crate::Check::$level($check),
+        };
+    };
+}
+
+pub(crate) use rule;

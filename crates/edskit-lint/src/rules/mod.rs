@@ -1,0 +1,21 @@
+//! The rules, one file each, in a folder for each group.
+
+pub mod device_info;
+pub mod file_info;
+pub mod lists;
+pub mod objects;
+pub mod syntax;
+pub mod values;
+
+use crate::Rule;
+use std::sync::LazyLock;
+
+/// Every rule, sorted by code within its group.
+pub static ALL: LazyLock<Vec<&'static Rule>> = LazyLock::new(|| {
+    let groups =
+        [syntax::RULES, file_info::RULES, device_info::RULES, lists::RULES, objects::RULES, values::RULES];
+    groups.concat()
+});
+
+#[cfg(test)]
+mod tests;

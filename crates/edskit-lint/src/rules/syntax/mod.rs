@@ -1,0 +1,9 @@
+//! SYN: the text of the file.
+
+mod duplicate_section;
+pub(crate) mod not_canopen;
+
+use crate::Rule;
+
+/// The rules of the group, sorted by code.
+pub(super) const RULES: &[&Rule] = &[&not_canopen::NOT_CANOPEN, &duplicate_section::DUPLICATE_SECTION];

@@ -1,0 +1,42 @@
+//! Helpers of the rules' own tests.
+
+use crate::{FileKind, Finding, Linter, Rule, RuleSet};
+use edskit_model::Datasheet;
+
+/// What one rule finds in an EDS, one text for each finding: `line:column severity: message`.
+pub(crate) fn findings(rule: &'static Rule, text: &str) -> Vec<String> {
+    findings_in(rule, "test.eds", text.as_bytes())
+}
+
+/// The same for any bytes and a file name that says which kind of file it is.
+pub(crate) fn findings_in(rule: &'static Rule, file_name: &str, bytes: &[u8]) -> Vec<String> {
+    let sheet = Datasheet::parse(bytes);
+    let place = |finding: &Finding| sheet.document().position(finding.span().start);
+    let show = |finding: &Finding| format!("{} {}: {}", place(finding), finding.severity, finding.message);
+    lint(rule, file_name, &sheet).iter().map(show).collect()
+}
+
+/// The text after the fix of every finding, made one after the other; findings without a fix stay.
+pub(crate) fn fixed(rule: &'static Rule, text: &str) -> String {
+    let bytes = fixed_in(rule, "test.eds", text.as_bytes());
+    String::from_utf8(bytes).expect("fixes of UTF-8 give UTF-8")
+}
+
+/// The same for any bytes and a file name that says which kind of file it is.
+pub(crate) fn fixed_in(rule: &'static Rule, file_name: &str, bytes: &[u8]) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    for _ in 0..100 {
+        let sheet = Datasheet::parse(&bytes);
+        let Some(fix) = lint(rule, file_name, &sheet).into_iter().find_map(|finding| finding.fix) else {
+            return bytes;
+        };
+        let after = fix.apply(&bytes);
+        assert_ne!(after, bytes, "{}: a fix must change the file", rule.code);
+        bytes = after;
+    }
+    panic!("{}: the fixes do not converge", rule.code);
+}
+
+pub(crate) fn lint(rule: &'static Rule, file_name: &str, sheet: &Datasheet) -> Vec<Finding> {
+    Linter::new(RuleSet::only(&[rule])).lint(sheet, FileKind::of(file_name), Some(file_name))
+}
