@@ -144,6 +144,7 @@ impl Line {
     }
 
     /// The blanks and tabs before the first other character.
+    #[inline]
     pub fn indentation(&self, source: &[u8]) -> Span {
         Span::new(self.start, trim_start(source, self.span()).start)
     }
