@@ -12,7 +12,7 @@ use edskit_model::{Datasheet, SectionKind};
 use edskit_types::{Index, NodeId, SubIndex};
 use serde::Serialize;
 use std::io::{self, Write};
-use view::Viewer;
+use view::{ObjectView, PdoView, Viewer};
 
 pub(crate) fn run(arguments: &ShowArguments, streams: &mut Streams) -> io::Result<Exit> {
     let name = arguments.file.to_string_lossy();
