@@ -58,7 +58,9 @@ fn format_input(input: &Input, arguments: &FmtArguments, streams: &mut Streams) 
     let bytes = input.read().map_err(|error| files::unreadable(&name, &error))?;
     let sheet = Datasheet::new(Document::from_vec(bytes));
     let before = sheet.document().to_bytes();
-    if Nature::of(before) != Nature::Text || sheet.sections().all(|section| section.kind() == SectionKind::Unknown) {
+    if Nature::of(before) != Nature::Text
+        || sheet.sections().all(|section| section.kind() == SectionKind::Unknown)
+    {
         return Err(format!("{name}: left alone, this is no CANopen file; `edskit lint` says what it is"));
     }
     let after = format(&sheet);
