@@ -44,11 +44,13 @@ impl<'a> Section<'a> {
     }
 
     /// Its header's line in the document, counted from 0.
+    #[inline]
     pub fn line_number(self) -> usize {
         self.record().line as usize
     }
 
     /// Its header's line in the document.
+    #[inline]
     pub fn line(self) -> &'a Line {
         &self.sheet.document.lines()[self.line_number()]
     }

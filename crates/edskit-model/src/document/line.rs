@@ -115,6 +115,7 @@ impl Line {
     }
 
     /// Of a section header: the `]`, or `None` where it is missing.
+    #[inline]
     pub fn closing_bracket(&self) -> Option<Span> {
         (self.kind == LineKind::Section && self.split < self.end)
             .then(|| Span::new(self.split, self.split + 1))

@@ -1,6 +1,6 @@
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
-use edskit_model::{Line, LineKind, SectionKind, Span};
+use edskit_model::{Line, SectionKind, Span};
 
 rule! {
     /// A section header is not well formed
@@ -39,9 +39,22 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for line in context.document().lines().iter().filter(|line| line.kind() == LineKind::Section) {
-        check_line(context, line, report);
+    for section in context.sheet.sections() {
+        let line = section.line();
+        if !is_well_formed(line, context.source()) {
+            check_line(context, line, report);
+        }
     }
+}
+
+/// Whether a header is a name in brackets without any blanks; they are so nearly always.
+#[inline]
+fn is_well_formed(line: &Line, source: &[u8]) -> bool {
+    let is_blank = |byte: &u8| matches!(byte, b' ' | b'\t');
+    let name = line.section_name(source);
+    line.closing_bracket().is_some_and(|bracket| bracket.end == line.span().end)
+        && matches!(name.slice(source), [first, ..] if !is_blank(first))
+        && matches!(name.slice(source), [.., last] if !is_blank(last))
 }
 
 fn check_line(context: &Context<'_>, line: &Line, report: &mut Report) {

@@ -7,22 +7,32 @@ mod duplicate_key;
 mod duplicate_section;
 mod entry_not_in_column_1;
 mod entry_outside_section;
+mod formulas;
 mod hash_comment;
 mod inline_comment;
+mod invalid_number;
 mod leading_zero_name;
 mod line_too_long;
 mod line_without_equals;
 mod lost_header;
 mod malformed_section;
 mod mixed_line_endings;
+mod nodeid_bad_expression;
+mod nodeid_not_first;
+mod nodeid_style;
 mod non_ascii;
 pub(crate) mod not_canopen;
+mod octal_looking_number;
+mod quoted_string;
 mod repeats;
 mod scan;
 mod section_alias;
 mod section_not_in_column_1;
+mod slips;
 mod space_before_equals;
 mod typed;
+mod unknown_key;
+mod unknown_section;
 
 use crate::Rule;
 
@@ -45,6 +55,14 @@ pub(super) const RULES: &[&Rule] = &[
     &duplicate_key::DUPLICATE_KEY,
     &section_alias::SECTION_ALIAS,
     &leading_zero_name::LEADING_ZERO_NAME,
+    &invalid_number::INVALID_NUMBER,
+    &octal_looking_number::OCTAL_LOOKING_NUMBER,
+    &quoted_string::QUOTED_STRING,
+    &nodeid_not_first::NODEID_NOT_FIRST,
+    &nodeid_style::NODEID_STYLE,
+    &nodeid_bad_expression::NODEID_BAD_EXPRESSION,
+    &unknown_section::UNKNOWN_SECTION,
+    &unknown_key::UNKNOWN_KEY,
     &control_character::CONTROL_CHARACTER,
     &entry_not_in_column_1::ENTRY_NOT_IN_COLUMN_1,
 ];

@@ -1,6 +1,5 @@
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
-use edskit_model::LineKind;
 
 rule! {
     /// Blanks stand before a section header
@@ -43,7 +42,8 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let source = context.source();
-    for line in context.document().lines().iter().filter(|line| line.kind() == LineKind::Section) {
+    for section in context.sheet.sections() {
+        let line = section.line();
         let blanks = line.indentation(source);
         if !blanks.is_empty() {
             let header = context.sheet.text(line.trimmed(source));
