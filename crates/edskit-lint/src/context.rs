@@ -1,8 +1,10 @@
 //! What checks see, and where they report.
 
+use crate::odd_lines::{self, OddLine};
 use crate::{FileKind, Finding, Label, Rule};
-use edskit_model::{Datasheet, Description, Document, Field, Span, Value};
+use edskit_model::{Datasheet, Description, Document, Entry, Field, Span, Value};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
+use std::cell::OnceCell;
 
 /// The file that is linted.
 pub struct Context<'a> {
@@ -12,9 +14,25 @@ pub struct Context<'a> {
     pub kind: FileKind,
     /// The file's own name without folders, where it has one.
     pub file_name: Option<&'a str>,
+    odd_lines: OnceCell<Vec<OddLine<'a>>>,
 }
 
 impl<'a> Context<'a> {
+    /// A file to be linted, with its own name without folders where it has one.
+    pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
+        Self { sheet, kind, file_name, odd_lines: OnceCell::new() }
+    }
+
+    /// The lines that hold something a correct file hardly ever holds.
+    pub(crate) fn odd_lines(&self) -> &[OddLine<'a>] {
+        self.odd_lines.get_or_init(|| odd_lines::find(self.sheet))
+    }
+
+    /// The entries on those lines.
+    pub(crate) fn odd_entries(&self) -> impl Iterator<Item = Entry<'a>> {
+        self.odd_lines().iter().filter_map(|line| line.entry)
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()

@@ -10,6 +10,7 @@ mod context;
 mod finding;
 mod inline_comment;
 mod linter;
+mod odd_lines;
 mod rule;
 mod rule_set;
 pub mod rules;

@@ -50,13 +50,19 @@ fn check(context: &Context<'_>, report: &mut Report) {
             continue;
         }
         for entry in section.entries() {
-            let name = entry.key().name;
-            match typed::shape_in(kind, name) {
-                Shape::Unsigned(bits) if !is_small_number(entry.raw(), bits) => {
-                    unsigned(context, entry, bits, report)
-                }
-                Shape::Value if !is_small_number(entry.raw(), 64) => value(context, section, entry, report),
-                _ => {}
+            let shape = typed::shape_in(kind, entry.key().name);
+            let bits = match shape {
+                Shape::Unsigned(bits) => bits,
+                Shape::Value => 64,
+                _ => continue,
+            };
+            if is_small_number(entry.raw(), bits) {
+                continue;
+            }
+            if shape == Shape::Value {
+                value(context, section, entry, report);
+            } else {
+                unsigned(context, entry, bits, report);
             }
         }
     }
@@ -104,7 +110,7 @@ fn unsigned(context: &Context<'_>, entry: Entry<'_>, bits: u8, report: &mut Repo
 fn value(context: &Context<'_>, section: Section<'_>, entry: Entry<'_>, report: &mut Report) {
     let Err(error) = Number::parse(entry.raw()) else { return };
     let is_integer = || typed::data_type(section).is_some_and(DataType::is_integer);
-    if is_integer() && formulas::meant(entry.raw()).is_none() && !is_owned_elsewhere(context, entry) {
+    if is_integer() && !is_owned_elsewhere(context, entry) && formulas::meant(entry.raw()).is_none() {
         not_a_number(context, entry, error, report);
     }
 }

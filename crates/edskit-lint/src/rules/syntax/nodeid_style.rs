@@ -1,7 +1,7 @@
-use super::formulas::{self, Place};
+use super::formulas;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
-use edskit_model::{Formula, Number, Radix};
+use edskit_model::{Number, Radix};
 
 rule! {
     /// A formula is written so that not every reader understands it
@@ -42,8 +42,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for (entry, _) in formulas::entries(context).filter(|(_, place)| *place == Place::Value) {
-        let Ok(formula) = Formula::parse(entry.raw()) else { continue };
+    for (entry, formula) in formulas::understood(context) {
         let style = formula.style();
         // The fix of SYN020 mends the style as well.
         if style.variable_not_first {

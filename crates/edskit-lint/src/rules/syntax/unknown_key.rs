@@ -48,7 +48,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let mut listed: Vec<(Section<'_>, Entry<'_>, usize)> = Vec::new();
     for section in context.sheet.sections() {
         let group = KeyGroup::of(section.kind());
-        if group == KeyGroup::Unknown {
+        if group == KeyGroup::Unknown || (group != KeyGroup::DeviceInfo && !has_unknown_keys(section)) {
             continue;
         }
         for entry in section.entries() {
@@ -77,6 +77,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for (section, entry, count) in listed {
         unknown(section, entry, count, report);
     }
+}
+
+#[inline]
+fn has_unknown_keys(section: Section<'_>) -> bool {
+    section.keys().any(|key| key.name == KeyName::Unknown)
 }
 
 /// Keys of `[DeviceInfo]` that CiA 306 keeps for files of older editions.
