@@ -62,7 +62,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
         if oddities.is_empty() {
             continue;
         }
-        let message = format!("in the formula `{}` {}", entry.text(), oddities.join(", and "));
+        let message = format!("the formula `{}` is not portable: {}", entry.text(), oddities.join(", and "));
         let finding = report.add(entry.value_span(), message);
         if portable {
             finding.severity(Severity::Info);
@@ -91,9 +91,9 @@ mod tests {
         assert_eq!(
             findings(&NODEID_STYLE, text),
             [
-                "3:14 warning: in the formula `$nodeid+128` `$NODEID` is not in capitals, and the offset is decimal",
-                "4:10 warning: in the formula `$NODEID +0x1` blanks stand around `+`",
-                "5:11 info: in the formula `$NODEID+384` the offset is decimal",
+                "3:14 warning: the formula `$nodeid+128` is not portable: `$NODEID` is not in capitals, and the offset is decimal",
+                "4:10 warning: the formula `$NODEID +0x1` is not portable: blanks stand around `+`",
+                "5:11 info: the formula `$NODEID+384` is not portable: the offset is decimal",
             ]
         );
         assert_eq!(
