@@ -22,7 +22,8 @@ impl Input {
     /// The path as it is shown: `/` between its parts on every system.
     pub(crate) fn name(&self, stdin_name: &str) -> String {
         match self {
-            Self::File(path) => path.to_string_lossy().replace('\\', "/"),
+            Self::File(path) if cfg!(windows) => path.to_string_lossy().replace('\\', "/"),
+            Self::File(path) => path.to_string_lossy().into_owned(),
             Self::Stdin(_) => stdin_name.to_owned(),
         }
     }

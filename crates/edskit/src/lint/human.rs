@@ -81,7 +81,7 @@ impl std::error::Error for Excerpt<'_> {}
 impl Diagnostic for Excerpt<'_> {
     fn code<'b>(&'b self) -> Option<Box<dyn fmt::Display + 'b>> {
         let rule = self.finding.rule;
-        Some(Box::new(format!("{} {}", rule.code, rule.name)))
+        Some(Box::new(format!("{} {} ({})", rule.code, rule.name, self.finding.severity)))
     }
 
     fn severity(&self) -> Option<miette::Severity> {

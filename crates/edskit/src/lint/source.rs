@@ -91,6 +91,29 @@ fn is_direction_mark(character: char) -> bool {
     matches!(character, '\u{200B}'..='\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}' | '\u{FEFF}')
 }
 
+impl<'a> Source<'a> {
+    /// The span alone, by which an excerpt's heading finds its line and column.
+    fn position_of(
+        &self,
+        span: &SourceSpan,
+        line: usize,
+    ) -> Result<Box<dyn SpanContents<'_> + '_>, MietteError> {
+        let start = self.document.lines().get(line).map_or(0, |line| self.offset(line.span().start));
+        let before = self.text.get(start..span.offset()).ok_or(MietteError::OutOfBounds)?;
+        let inside =
+            self.text.get(span.offset()..span.offset() + span.len()).ok_or(MietteError::OutOfBounds)?;
+        let column = before.chars().count();
+        Ok(Box::new(MietteSpanContents::new_named(
+            self.name.clone(),
+            inside.as_bytes(),
+            *span,
+            line,
+            column,
+            1,
+        )))
+    }
+}
+
 impl SourceCode for Source<'_> {
     fn read_span<'b>(
         &'b self,
@@ -106,6 +129,9 @@ impl SourceCode for Source<'_> {
                 self.document.line_at(byte as u32)
             }
         };
+        if context_lines_before == 0 && context_lines_after == 0 {
+            return self.position_of(span, line_of(span.offset()));
+        }
         let last_line = lines.len().saturating_sub(1);
         let first = line_of(span.offset()).saturating_sub(context_lines_before);
         let last = (line_of(span.offset() + span.len().max(1) - 1) + context_lines_after).min(last_line);
