@@ -1,31 +1,30 @@
-//! Small words of messages.
+//! Parts of sentences.
 
-use edskit_types::ObjectCode;
+/// How many things of a kind a message or its labels show.
+pub(crate) const FEW: usize = 4;
 
-/// `1 sub-object`, `2 sub-objects`.
-pub(crate) fn counted(count: usize, noun: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {noun}{plural}")
-}
-
-/// `is` after one thing, `are` after any other number.
-pub(crate) fn is_are(count: usize) -> &'static str {
-    if count == 1 { "is" } else { "are" }
-}
-
-/// `a VAR`, `an ARRAY`.
-pub(crate) fn with_article(code: ObjectCode) -> String {
-    let article = if code == ObjectCode::Array { "an" } else { "a" };
-    format!("{article} {code}")
-}
-
-/// `a`, `a and b`, `a, b and c`.
-pub(crate) fn list(words: &[&str]) -> String {
-    match words {
+/// `a`, `a and b`, `a, b and c`; the conjunction is `and` or `or`.
+pub(crate) fn series(items: &[String], conjunction: &str) -> String {
+    match items {
         [] => String::new(),
-        [word] => (*word).to_owned(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+        [only] => only.clone(),
+        [before @ .., last] => format!("{} {conjunction} {last}", before.join(", ")),
     }
+}
+
+/// The same with `and`, but no more than a few of them: `a, b, c, d and 17 more`.
+pub(crate) fn few<T: ToString>(items: impl ExactSizeIterator<Item = T>) -> String {
+    let count = items.len();
+    let mut shown: Vec<String> = items.take(FEW).map(|item| item.to_string()).collect();
+    if count > FEW {
+        shown.push(format!("{} more", count - FEW));
+    }
+    series(&shown, "and")
+}
+
+/// `1 object`, `2 objects`.
+pub(crate) fn count(number: usize, noun: &str) -> String {
+    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]
@@ -33,19 +32,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_and_articles_agree_with_their_nouns() {
-        assert_eq!(counted(1, "link"), "1 link");
-        assert_eq!(counted(0, "link"), "0 links");
-        assert_eq!((is_are(1), is_are(0), is_are(2)), ("is", "are", "are"));
-        assert_eq!(with_article(ObjectCode::Array), "an ARRAY");
-        assert_eq!(with_article(ObjectCode::Record), "a RECORD");
-    }
-
-    #[test]
-    fn lists_end_with_and() {
-        assert_eq!(list(&[]), "");
-        assert_eq!(list(&["a"]), "a");
-        assert_eq!(list(&["a", "b"]), "a and b");
-        assert_eq!(list(&["a", "b", "c"]), "a, b and c");
+    fn series_read_like_sentences() {
+        let items: Vec<String> = ["a", "b", "c"].map(String::from).to_vec();
+        assert_eq!(series(&items, "or"), "a, b or c");
+        assert_eq!(series(&items[..1], "and"), "a");
+        assert_eq!(few((1..=4).collect::<Vec<_>>().into_iter()), "1, 2, 3 and 4");
+        assert_eq!(few((1..=6).collect::<Vec<_>>().into_iter()), "1, 2, 3, 4 and 2 more");
+        assert_eq!([count(1, "object"), count(0, "object")], ["1 object", "0 objects"]);
     }
 }

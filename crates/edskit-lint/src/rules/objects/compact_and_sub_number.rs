@@ -1,6 +1,7 @@
 use super::structure::elements;
+use super::words::is_are;
 use crate::rule::rule;
-use crate::wording::{counted, is_are};
+use crate::wording::count;
 use crate::{Context, Edit, Report};
 use edskit_model::Object;
 
@@ -51,39 +52,38 @@ rule! {
 
 fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let Some(compact) = object.compact_sub_obj() else { return };
-    let Some(count @ 1..) = compact.known() else { return };
+    let Some(claimed @ 1..) = compact.known() else { return };
     if !object.object_code().is_some_and(|code| code.has_sub_objects()) {
         return;
     }
-    let described = elements(object);
+    let described = elements(object).len();
     let sub_number = object.sub_number().filter(|field| field.known().is_some_and(|number| number > 0));
-    if let Some(field) = sub_number {
-        let message = format!("SubNumber is {} beside CompactSubObj, which is {count}", field.text());
-        let finding =
-            report.add(field.span(), message).label(compact.span(), "this describes all sub-objects");
-        if described.len() == 0 {
+    let finding = match (sub_number, elements(object).next()) {
+        (Some(field), first) => {
+            let message = format!("SubNumber is {} beside CompactSubObj, which is {claimed}", field.text());
+            let finding = report.add(field.span(), message);
+            finding.label(compact.span(), "this describes all sub-objects");
+            if first.is_none() {
+                finding
+                    .help("leave SubNumber out, or write `SubNumber=0`")
+                    .unsafe_fix("Leave SubNumber out", vec![Edit::delete(field.entry.line().full_span())]);
+                return;
+            }
             finding
-                .help("leave SubNumber out, or write `SubNumber=0`")
-                .unsafe_fix("Leave SubNumber out", vec![Edit::delete(field.entry.line().full_span())]);
-            return;
         }
-    } else if let Some(first) = elements(object).next() {
-        let number = described.len();
-        let message = format!(
-            "CompactSubObj is {}, but {} {} described one by one",
-            compact.text(),
-            counted(number, "element"),
-            is_are(number)
-        );
-        report.add(compact.span(), message).label(first.section().span(), "the first one");
-    } else {
-        return;
-    }
-    if let Some(finding) = report.findings.last_mut() {
-        finding.help(
-            "keep CompactSubObj where all elements are alike, else leave it out and describe each element",
-        );
-    }
+        (None, Some(first)) => {
+            let message = format!(
+                "CompactSubObj is {}, but {} {} described one by one",
+                compact.text(),
+                count(described, "element"),
+                is_are(described)
+            );
+            report.add(compact.span(), message).label(first.section().span(), "the first one")
+        }
+        (None, None) => return,
+    };
+    finding
+        .help("keep CompactSubObj where all elements are alike, else leave it out and describe each element");
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 use super::structure::belongs_elsewhere;
+use super::words::is_are;
 use crate::edits::number_like;
 use crate::rule::rule;
-use crate::wording::{counted, is_are};
+use crate::wording::count;
 use crate::{Context, Edit, Report};
 use edskit_model::{KeyName, Object, Section, SectionKind};
 
@@ -124,8 +125,8 @@ fn check_keys(section: Section<'_>, object: Object<'_>, report: &mut Report) {
     if belongs_elsewhere(compact.entry) {
         return;
     }
-    let Some(count) = compact.known() else { return };
-    let is_beyond = |number: u16| number == 0 || number > u16::from(count);
+    let Some(last) = compact.known() else { return };
+    let is_beyond = |number: u16| number == 0 || number > u16::from(last);
     let mut beyond = section.all_numbered(KeyName::Item).filter(|entry| is_beyond(entry.key().number));
     let Some(first) = beyond.next() else { return };
     let more = beyond.count();
@@ -136,9 +137,9 @@ fn check_keys(section: Section<'_>, object: Object<'_>, report: &mut Report) {
         format!("`{key}` is above CompactSubObj, which is {}", compact.text())
     };
     let finding = report.add(first.key_span(), message);
-    finding.label(compact.span(), format!("the last compact sub-index is {count}"));
+    finding.label(compact.span(), format!("the last compact sub-index is {last}"));
     if more > 0 {
-        finding.here(format!("and {} more", counted(more, "key")));
+        finding.here(format!("and {} more", count(more, "key")));
     }
     finding.help("keys are the sub-indexes in decimal, from 1 to CompactSubObj");
 }

@@ -1,6 +1,7 @@
 use super::structure::{counted_subs, fixed_code};
+use super::words::with_article;
 use crate::rule::rule;
-use crate::wording::{list, with_article};
+use crate::wording::few;
 use crate::{Context, Edit, Report, Variable};
 use edskit_model::{Entry, KeyName, Number};
 use edskit_types::ObjectCode;
@@ -87,7 +88,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let keys: Vec<&str> = entries.iter().map(|entry| entry.key().name.spelling()).collect();
     let verb = if keys.len() == 1 { "does" } else { "do" };
     let whose = if variable.sub_index.is_some() { "a sub-object".to_owned() } else { with_article(code) };
-    let finding = report.add(first.key_span(), format!("{} {verb} not apply to {whose}", list(&keys)));
+    let finding = report.add(first.key_span(), format!("{} {verb} not apply to {whose}", few(keys.iter())));
     for entry in &entries[1..] {
         finding.label(entry.key_span(), "nor this one");
     }

@@ -28,6 +28,7 @@ mod sub_index_too_large;
 mod sub_number_mismatch;
 mod sub_number_missing;
 mod sub_object_under_var;
+mod words;
 
 use crate::Rule;
 

@@ -1,6 +1,7 @@
+use super::words::is_are;
 use crate::edits::number_like;
 use crate::rule::rule;
-use crate::wording::{counted, is_are};
+use crate::wording::count;
 use crate::{Context, Edit, Report};
 use edskit_model::{KeyName, Section, SectionKind};
 use edskit_types::Index;
@@ -103,7 +104,7 @@ fn check_count(section: Section<'_>, report: &mut Report) {
         return;
     }
     let number = number_like(filled as u64, entry.raw());
-    let links = counted(filled, "link");
+    let links = count(filled, "link");
     report
         .add(field.span(), format!("ObjectLinks is {}, but {links} {} listed", field.text(), is_are(filled)))
         .help(format!("write `ObjectLinks={number}`"))

@@ -1,6 +1,6 @@
 use super::structure::belongs_elsewhere;
+use super::words::with_article;
 use crate::rule::rule;
-use crate::wording::with_article;
 use crate::{Context, Edit, Report, Variable};
 use edskit_model::{Field, Number};
 use edskit_types::ObjectCode;

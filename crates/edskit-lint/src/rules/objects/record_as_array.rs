@@ -1,6 +1,6 @@
 use super::structure::fixed_code;
+use super::words::with_article;
 use crate::rule::rule;
-use crate::wording::with_article;
 use crate::{Context, Edit, Report};
 use edskit_model::Object;
 use edskit_types::ObjectCode;

@@ -1,7 +1,7 @@
 use super::structure::{counted_subs, sub0};
+use super::words::with_article;
 use crate::edits::{add_lines, number_like};
 use crate::rule::rule;
-use crate::wording::with_article;
 use crate::{Context, Edit, Report};
 use edskit_model::Object;
 use edskit_types::ObjectCode;

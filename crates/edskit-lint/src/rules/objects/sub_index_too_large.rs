@@ -1,6 +1,6 @@
 use super::structure::beyond_ff;
 use crate::rule::rule;
-use crate::wording::counted;
+use crate::wording::count;
 use crate::{Context, Report};
 use edskit_model::Section;
 use edskit_types::Index;
@@ -72,7 +72,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     }
 }
 
-fn add((first, index, count): (Section<'_>, Index, usize), report: &mut Report) {
+fn add((first, index, length): (Section<'_>, Index, usize), report: &mut Report) {
     let name = first.name();
     let digits = name
         .to_ascii_lowercase()
@@ -85,8 +85,8 @@ fn add((first, index, count): (Section<'_>, Index, usize), report: &mut Report) 
             digits.to_ascii_uppercase()
         ),
     );
-    if count > 1 {
-        finding.here(format!("and {} behind it", counted(count - 1, "such section")));
+    if length > 1 {
+        finding.here(format!("and {} behind it", count(length - 1, "such section")));
     }
     match digits.parse::<u8>() {
         Ok(decimal) => finding.help(format!(

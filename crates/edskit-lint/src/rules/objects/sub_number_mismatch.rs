@@ -1,7 +1,8 @@
 use super::structure::{counted_subs, goes_beyond_ff, sub0};
+use super::words::is_are;
 use crate::edits::number_like;
 use crate::rule::rule;
-use crate::wording::{counted, is_are};
+use crate::wording::count;
 use crate::{Context, Edit, Report};
 use edskit_model::Object;
 
@@ -60,14 +61,14 @@ rule! {
 fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let Some(field) = object.sub_number() else { return };
     let Some(claimed) = field.known().map(usize::from) else { return };
-    let count = counted_subs(object).len();
-    if claimed == count
+    let described = counted_subs(object).len();
+    if claimed == described
         || object.compact_sub_obj().is_some_and(|field| field.known() != Some(0))
         || !object.object_code().is_some_and(|code| code.has_sub_objects())
     {
         return;
     }
-    if count > 0 && claimed == count + 1 && sub0(object).is_none() {
+    if described > 0 && claimed == described + 1 && sub0(object).is_none() {
         // OBJ012: SubNumber is right, sub-index 00h is missing.
         return;
     }
@@ -77,8 +78,8 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let message = format!(
         "SubNumber is {}, but {} {} described",
         field.text(),
-        counted(count, "sub-object"),
-        is_are(count)
+        count(described, "sub-object"),
+        is_are(described)
     );
     let finding = report.add(field.span(), message);
     let mut subs = counted_subs(object);
@@ -96,10 +97,10 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
             return;
         }
     }
-    let number = number_like(count as u64, field.entry.raw());
-    let hint = if claimed > count && object.sub_objects().len() > count {
+    let number = number_like(described as u64, field.entry.raw());
+    let hint = if claimed > described && object.sub_objects().len() > described {
         "; sub-index FFh is not counted"
-    } else if claimed > count {
+    } else if claimed > described {
         ", or describe the missing ones"
     } else {
         ""

@@ -1,7 +1,8 @@
 use super::structure::counted_subs;
+use super::words::{is_are, with_article};
 use crate::edits::add_lines;
 use crate::rule::rule;
-use crate::wording::{counted, is_are, with_article};
+use crate::wording::count;
 use crate::{Context, Report};
 use edskit_model::Object;
 
@@ -60,20 +61,24 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     {
         return;
     }
-    let count = counted_subs(object).len();
-    if count == 0 && object.data_type().is_some() {
+    let described = counted_subs(object).len();
+    if described == 0 && object.data_type().is_some() {
         // OBJ006: more likely the object is a VAR.
         return;
     }
     let section = object.section();
     let message = format!("{} is {}, but has no SubNumber", object.index(), with_article(code));
     let finding = report.add(section.span(), message);
-    if count == 0 {
+    if described == 0 {
         finding.help("describe its sub-objects, and write their number as SubNumber");
     } else {
-        let line = format!("SubNumber={count}");
+        let line = format!("SubNumber={described}");
         finding
-            .help(format!("write `{line}`: {} {} described", counted(count, "sub-object"), is_are(count)))
+            .help(format!(
+                "write `{line}`: {} {} described",
+                count(described, "sub-object"),
+                is_are(described)
+            ))
             .safe_fix("Write the SubNumber", vec![add_lines(section, &[&line])]);
     }
 }

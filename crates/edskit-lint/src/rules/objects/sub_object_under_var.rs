@@ -1,7 +1,8 @@
 use super::structure::{counted_subs, elements, fixed_code};
+use super::words::{is_are, with_article};
 use crate::edits::add_lines;
 use crate::rule::rule;
-use crate::wording::{counted, is_are, with_article};
+use crate::wording::count;
 use crate::{Context, Edit, Report};
 use edskit_model::Object;
 use edskit_types::ObjectCode;
@@ -60,8 +61,8 @@ rule! {
 fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let Some(first) = counted_subs(object).next() else { return };
     let Some(code @ (ObjectCode::Var | ObjectCode::Domain)) = object.object_code() else { return };
-    let count = counted_subs(object).len();
-    let subs = format!("{} {} described", counted(count, "sub-object"), is_are(count));
+    let described = counted_subs(object).len();
+    let subs = format!("{} {} described", count(described, "sub-object"), is_are(described));
     let object_type = object.object_type();
     let finding = match object_type {
         Some(field) => {
