@@ -249,6 +249,9 @@ macro_rules! key_names {
             use Shape::*;
             &[("", Text(0), Form::Fixed), $(($spelling, $shape, Form::$form),)*]
         };
+
+        /// How many keys there are, [`KeyName::Unknown`] counted.
+        pub(crate) const KEY_NAMES: usize = ROWS.len();
     };
 }
 
