@@ -58,6 +58,10 @@ pub struct Variable<'a> {
     pub access_type: Option<Field<'a, AccessType>>,
     /// The mapping right as written.
     pub pdo_mapping: Option<Field<'a, bool>>,
+    /// The right to be mapped into an SRDO as written.
+    pub srdo_mapping: Option<Field<'a, bool>>,
+    /// The flags for downloads and scans as written.
+    pub obj_flags: Option<Field<'a, u32>>,
     /// The default value, read by the data type.
     pub default_value: Option<Field<'a, Value<'a>>>,
     /// The value of a DCF, read by the data type.
@@ -71,7 +75,8 @@ pub struct Variable<'a> {
 impl<'a> Variable<'a> {
     pub(crate) fn new(index: Index, sub_index: Option<SubIndex>, description: Description<'a>) -> Self {
         // One walk over the entries instead of a search for each key: this runs for every section of every file.
-        let [mut object_type, mut data_type, mut access_type, mut pdo_mapping] = [None; 4];
+        let [mut object_type, mut data_type, mut access_type] = [None; 3];
+        let [mut pdo_mapping, mut srdo_mapping, mut obj_flags] = [None; 3];
         let [mut default_value, mut parameter_value, mut low_limit, mut high_limit] = [None; 4];
         for entry in description.entries() {
             let first = match entry.key().name {
@@ -79,6 +84,8 @@ impl<'a> Variable<'a> {
                 KeyName::DataType => &mut data_type,
                 KeyName::AccessType => &mut access_type,
                 KeyName::PdoMapping => &mut pdo_mapping,
+                KeyName::SrdoMapping => &mut srdo_mapping,
+                KeyName::ObjFlags => &mut obj_flags,
                 KeyName::DefaultValue => &mut default_value,
                 KeyName::ParameterValue => &mut parameter_value,
                 KeyName::LowLimit => &mut low_limit,
@@ -106,6 +113,8 @@ impl<'a> Variable<'a> {
             standard_type,
             access_type: access_type.map(Entry::access_type).filter(is_filled),
             pdo_mapping: pdo_mapping.map(Entry::flag).filter(is_filled),
+            srdo_mapping: srdo_mapping.map(Entry::flag).filter(is_filled),
+            obj_flags: obj_flags.map(Entry::unsigned).filter(is_filled),
             default_value: value(default_value),
             parameter_value: value(parameter_value),
             low_limit: value(low_limit),

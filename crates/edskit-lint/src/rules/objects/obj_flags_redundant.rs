@@ -43,12 +43,13 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let objects = context.sheet.objects().map(|object| object.description());
-    let sub_objects = context.sheet.sub_objects().map(|sub| sub.description());
-    let is_zero = |entry: &Entry<'_>| entry.unsigned::<u32>().known() == Some(0);
-    let entries = objects.chain(sub_objects).filter_map(|description| description.filled(KeyName::ObjFlags));
-    let mut zeros: Vec<Entry<'_>> = entries.filter(is_zero).collect();
-    zeros.sort_by_key(|entry| entry.id());
+    if !context.sheet.has_key(KeyName::ObjFlags) {
+        return;
+    }
+    let is_zero = |entry: &Entry<'_>| {
+        entry.key().name == KeyName::ObjFlags && entry.unsigned::<u32>().known() == Some(0)
+    };
+    let zeros: Vec<Entry<'_>> = context.sheet.entries().filter(is_zero).collect();
     let Some(first) = zeros.first() else { return };
     let message = match zeros.len() - 1 {
         0 => "ObjFlags is 0, which is the same as leaving it out".to_owned(),

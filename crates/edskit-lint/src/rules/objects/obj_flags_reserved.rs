@@ -45,7 +45,7 @@ rule! {
 const DEFINED: u32 = 0b11;
 
 fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    let Some(field) = variable.description.obj_flags() else { return };
+    let Some(field) = variable.obj_flags else { return };
     let Some(flags) = field.known().filter(|flags| flags & !DEFINED != 0) else { return };
     let help = match flags & DEFINED {
         0 => "leave ObjFlags out".to_owned(),

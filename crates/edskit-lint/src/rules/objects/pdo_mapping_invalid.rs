@@ -43,7 +43,7 @@ rule! {
 }
 
 fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    for field in [variable.pdo_mapping, variable.description.srdo_mapping()].into_iter().flatten() {
+    for field in [variable.pdo_mapping, variable.srdo_mapping].into_iter().flatten() {
         if field.value.is_ok() || belongs_elsewhere(field.entry) {
             continue;
         }
