@@ -131,6 +131,18 @@ impl Datasheet {
         self.keys[name as usize]
     }
 
+    /// The entry on a line of the document, counted from 0.
+    pub fn entry_on_line(&self, line: usize) -> Option<Entry<'_>> {
+        let position = self.entries.binary_search_by_key(&line, |entry| entry.line as usize).ok()?;
+        Some(Entry { sheet: self, id: position as u32 })
+    }
+
+    /// Whether some section of CiA 306 stands twice, in whatever spelling.
+    pub fn has_repeated_sections(&self) -> bool {
+        let unknown = self.sections.iter().filter(|section| section.kind == SectionKind::Unknown).count();
+        self.objects.len() + self.sub_objects.len() + self.others.len() + unknown < self.sections.len()
+    }
+
     /// Entries before the first section.
     pub fn entries_outside_sections(&self) -> impl ExactSizeIterator<Item = Entry<'_>> {
         let end = self.sections.first().map_or(self.entries.len() as u32, |section| section.first_entry);

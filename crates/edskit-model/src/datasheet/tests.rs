@@ -121,6 +121,34 @@ fn entries_know_their_sections() {
 }
 
 #[test]
+fn entries_are_found_by_their_line() {
+    let sheet = Datasheet::parse(b"[1000]\n; x\nDataType=7\n\nDefaultValue=1\n");
+    let keys: Vec<_> =
+        (0..6).map(|line| sheet.entry_on_line(line).map(|entry| entry.key_text().into_owned())).collect();
+    assert_eq!(keys, [None, None, Some("DataType".to_owned()), None, Some("DefaultValue".to_owned()), None]);
+}
+
+#[test]
+fn repeated_sections_of_cia_306_are_counted_in_every_spelling() {
+    for (text, repeated) in [
+        ("[1000]\n[1018sub1]\n[Tool1]\n[x]\n[x]\n", false),
+        ("[1000]\n[0x1000]\n", true),
+        ("[1018sub1]\n[1018SUB1]\n", true),
+        ("[DeviceComissioning]\n[DeviceCommissioning]\n", true),
+    ] {
+        assert_eq!(Datasheet::parse(text.as_bytes()).has_repeated_sections(), repeated, "{text}");
+    }
+}
+
+#[test]
+fn only_descriptions_have_attributes() {
+    let sheet = Datasheet::parse(b"[FileInfo]\n[1000]\nDataType=7\n[M1Fixed2000]\nDataType=5\n");
+    let types: Vec<_> =
+        sheet.sections().map(|section| section.description().and_then(Description::standard_type)).collect();
+    assert_eq!(types, [None, Some(DataType::Unsigned32), Some(DataType::Unsigned8)]);
+}
+
+#[test]
 fn a_domain_object_needs_neither_type_nor_access() {
     let sheet = Datasheet::parse(b"[1021]\nParameterName=Store EDS\nObjectType=2\nDefaultValue=0A1B\n");
     let domain = sheet.object(Index(0x1021)).unwrap();
