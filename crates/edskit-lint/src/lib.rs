@@ -10,12 +10,15 @@ mod context;
 mod finding;
 mod inline_comment;
 mod linter;
+mod listing;
+mod missing;
 mod rule;
 mod rule_set;
 pub mod rules;
 mod similar;
 #[cfg(test)]
 mod testing;
+mod wording;
 
 pub use context::{Context, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
