@@ -158,7 +158,8 @@ impl Listing {
         // Only what no section describes comes here, so it may take its time.
         let lacks_prefix = hexadecimal(entry.raw()).and_then(known);
         let is_no_index = value.is_none_or(|value| value < FIRST_OBJECT);
-        let from_key = is_no_index.then(|| hexadecimal(entry.key_text().as_bytes())).flatten().and_then(known);
+        let from_key =
+            is_no_index.then(|| hexadecimal(entry.key_text().as_bytes())).flatten().and_then(known);
         let key = match (lacks_prefix, from_key) {
             (None, Some(_)) => ItemKey::Index,
             _ => ItemKey::Number(key.number),
@@ -276,7 +277,10 @@ mod tests {
     #[test]
     fn an_index_may_stand_in_the_key() {
         assert_eq!(items("[OptionalObjects]\n1017=1\n[1017]\n"), [(ItemKey::Index, Some(0x1017), false)]);
-        assert_eq!(items("[OptionalObjects]\nIndex0=0x1017\n[1017]\n"), [(ItemKey::Other, Some(0x1017), false)]);
+        assert_eq!(
+            items("[OptionalObjects]\nIndex0=0x1017\n[1017]\n"),
+            [(ItemKey::Other, Some(0x1017), false)]
+        );
         assert_eq!(items("[OptionalObjects]\nIndex0=0x1017\n"), []);
         let large = "[OptionalObjects]\n1017=0x3000\n[1017]\n";
         assert_eq!(items(large), [(ItemKey::Number(1017), Some(0x3000), false)]);

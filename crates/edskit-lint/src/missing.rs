@@ -49,8 +49,11 @@ impl<'a> Missing<'a> {
                 (self.empty[0].span(), format!("{} of `[{section}]` {are} empty", series(&empty, "and")))
             }
             (false, false) => {
-                let message =
-                    format!("`[{section}]` has no {}; {} {are} empty", series(&absent, "or"), series(&empty, "and"));
+                let message = format!(
+                    "`[{section}]` has no {}; {} {are} empty",
+                    series(&absent, "or"),
+                    series(&empty, "and")
+                );
                 (self.section.span(), message)
             }
         };
@@ -97,12 +100,13 @@ impl<'a> Missing<'a> {
 pub(crate) fn lost_header(context: &Context<'_>, header: &str, report: &mut Report) -> bool {
     let source = context.source();
     let lines = context.document().lines().iter();
-    let place = lines.filter(|line| matches!(line.kind(), LineKind::Entry | LineKind::Other)).find_map(|line| {
-        let text = line.span().slice(source);
-        let start = text.iter().position(|&byte| byte == b'[')?;
-        let found = text.get(start..start + header.len())?;
-        found.eq_ignore_ascii_case(header.as_bytes()).then(|| line.span().sub(start, header.len()))
-    });
+    let place =
+        lines.filter(|line| matches!(line.kind(), LineKind::Entry | LineKind::Other)).find_map(|line| {
+            let text = line.span().slice(source);
+            let start = text.iter().position(|&byte| byte == b'[')?;
+            let found = text.get(start..start + header.len())?;
+            found.eq_ignore_ascii_case(header.as_bytes()).then(|| line.span().sub(start, header.len()))
+        });
     let Some(place) = place else { return false };
     let ending = context.document().line_ending().as_str();
     report

@@ -77,7 +77,10 @@ fn date<'a>(info: Section<'a>, name: KeyName, report: &mut Report) -> Option<(Da
             days => format!("month {:02} of that year has days 01 to {days}", date.month),
         };
         report
-            .add(entry.value_span(), format!("{} is `{}`, a day that does not exist", name.spelling(), entry.text()))
+            .add(
+                entry.value_span(),
+                format!("{} is `{}`, a day that does not exist", name.spelling(), entry.text()),
+            )
             .here(why)
             .help("write a date as month, day and year: `mm-dd-yyyy`");
     }

@@ -123,7 +123,10 @@ mod tests {
             ["2:1 info: without `EDSVersion` the file counts as edition 3.0"]
         );
         assert_eq!(fixed(&EDS_VERSION_FORMAT, &with("")), with("4.0"));
-        assert_eq!(fixed(&EDS_VERSION_FORMAT, "[FileInfo]\r\n[1000]\r\n"), "[FileInfo]\r\nEDSVersion=4.0\r\n[1000]\r\n");
+        assert_eq!(
+            fixed(&EDS_VERSION_FORMAT, "[FileInfo]\r\n[1000]\r\n"),
+            "[FileInfo]\r\nEDSVersion=4.0\r\n[1000]\r\n"
+        );
         assert_eq!(
             findings(&EDS_VERSION_FORMAT, &with("2.0")),
             ["2:12 info: EDSVersion is `2.0`, an edition before 4.0"]

@@ -68,7 +68,10 @@ mod tests {
     #[test]
     fn an_eds_has_no_predecessor() {
         let text = "[FileInfo]\nLastEDS=a.eds\nFileVersion=1\n";
-        assert_eq!(findings(&LAST_EDS, text), ["2:1 info: LastEDS is `a.eds`, but only a DCF has this entry"]);
+        assert_eq!(
+            findings(&LAST_EDS, text),
+            ["2:1 info: LastEDS is `a.eds`, but only a DCF has this entry"]
+        );
         assert_eq!(fixed(&LAST_EDS, text), "[FileInfo]\nFileVersion=1\n");
         assert!(findings(&LAST_EDS, "[FileInfo]\nLastEDS=\n").is_empty());
     }

@@ -56,8 +56,8 @@ fn report_time(entry: Entry<'_>, report: &mut Report) {
     let raw = entry.raw();
     let name = entry.key().name.spelling();
     let span = entry.value_span();
-    let finding =
-        report.add(span, format!("{name} is `{}`, which is not of the form `hh:mmAM` or `hh:mmPM`", entry.text()));
+    let finding = report
+        .add(span, format!("{name} is `{}`, which is not of the form `hh:mmAM` or `hh:mmPM`", entry.text()));
     match Time::guess(raw) {
         Some(guess) => {
             let time = guess.time.to_string();
@@ -93,10 +93,7 @@ mod tests {
                 "3:18 warning: ModificationTime is `00:00AM`, which is not of the form `hh:mmAM` or `hh:mmPM`"
             ]
         );
-        assert_eq!(
-            fixed(&TIME_FORMAT, text),
-            "[FileInfo]\nCreationTime=07:37AM\nModificationTime=12:00AM\n"
-        );
+        assert_eq!(fixed(&TIME_FORMAT, text), "[FileInfo]\nCreationTime=07:37AM\nModificationTime=12:00AM\n");
     }
 
     #[test]

@@ -121,7 +121,8 @@ impl Date {
 
     /// How many days the month has; 0 for a month that does not exist.
     pub(super) fn days_in_month(self) -> u8 {
-        let is_leap = self.year.is_multiple_of(4) && !self.year.is_multiple_of(100) || self.year.is_multiple_of(400);
+        let is_leap =
+            self.year.is_multiple_of(4) && !self.year.is_multiple_of(100) || self.year.is_multiple_of(400);
         match self.month {
             2 if is_leap => 29,
             2 => 28,
@@ -197,7 +198,9 @@ mod tests {
         assert_eq!(time("12:30"), uncertain("12:30PM"));
         assert_eq!(time("13:45AM"), uncertain("01:45PM"));
         assert_eq!(time("00:15PM"), uncertain("12:15PM"));
-        for text in ["24:00", "10:60", "1:2:3:4", "10", "2016-03-25", "<!time>", "100:00AM", ":", "am", "1:2:99"] {
+        for text in
+            ["24:00", "10:60", "1:2:3:4", "10", "2016-03-25", "<!time>", "100:00AM", ":", "am", "1:2:99"]
+        {
             assert_eq!(time(text), None, "{text}");
         }
     }
@@ -216,11 +219,15 @@ mod tests {
 
     #[test]
     fn other_dates_are_guessed_where_they_are_clear() {
-        for text in ["2016-03-25", "2016/3/25", "25.3.2016", "25/03/2016", "03/25/2016", "3-25-2016", "03:25:16"] {
+        for text in
+            ["2016-03-25", "2016/3/25", "25.3.2016", "25/03/2016", "03/25/2016", "3-25-2016", "03:25:16"]
+        {
             assert_eq!(date(text).as_deref(), Some("03-25-2016"), "{text}");
         }
         assert_eq!(date("9-1-99").as_deref(), Some("09-01-1999"));
-        for text in ["03/04/2016", "30-30-2016", "2016-25-03", "20160325", "<!date>", "1-2-3-4", "3-25-", "a.b.c"] {
+        for text in
+            ["03/04/2016", "30-30-2016", "2016-25-03", "20160325", "<!date>", "1-2-3-4", "3-25-", "a.b.c"]
+        {
             assert_eq!(date(text), None, "{text}");
         }
     }
