@@ -1,7 +1,7 @@
 //! What checks see, and where they report.
 
 use crate::listing::Listing;
-use crate::{FileKind, Finding, Label, Rule, Severity};
+use crate::{FileKind, Finding, Label, Rule};
 use core::cell::OnceCell;
 use edskit_model::{Datasheet, Description, Document, Field, Span, Value};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
@@ -118,25 +118,72 @@ impl<'a> Variable<'a> {
     }
 }
 
+/// Of one rule, a file gets at most this many findings: a file of a megabyte has room for half a million, and nobody
+/// reads even these.
+pub const MOST_FINDINGS: usize = 2_000;
+
 /// Where the rule that runs puts its findings.
 pub struct Report {
-    pub(crate) rule: &'static Rule,
-    pub(crate) severity: Severity,
-    pub(crate) findings: Vec<Finding>,
+    rule: &'static Rule,
+    /// Position of the rule in `counts`.
+    slot: usize,
+    findings: Vec<Finding>,
+    /// For each rule how many it reported, and where its last finding is that was kept.
+    counts: Vec<Count>,
+    /// The last finding that is not kept.
+    surplus: Option<Finding>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Count {
+    reported: usize,
+    last: usize,
 }
 
 impl Report {
+    pub(crate) fn new(rule: &'static Rule) -> Self {
+        Self { rule, slot: 0, findings: Vec::new(), counts: Vec::new(), surplus: None }
+    }
+
+    /// Says which rule runs from now on, and its position among the rules of the run.
+    #[inline]
+    pub(crate) fn enter(&mut self, rule: &'static Rule, slot: usize) {
+        self.rule = rule;
+        self.slot = slot;
+    }
+
     /// Adds a finding at `span`; labels, help and a fix follow on what is returned.
     pub fn add(&mut self, span: Span, message: impl Into<String>) -> &mut Finding {
-        let position = self.findings.len();
-        self.findings.push(Finding {
+        let finding = Finding {
             rule: self.rule,
-            severity: self.severity,
+            severity: self.rule.severity,
             message: message.into(),
             labels: vec![Label { span, text: String::new() }],
             help: None,
             fix: None,
-        });
-        &mut self.findings[position]
+        };
+        if self.counts.len() <= self.slot {
+            self.counts.resize(self.slot + 1, Count::default());
+        }
+        let count = &mut self.counts[self.slot];
+        count.reported += 1;
+        if count.reported > MOST_FINDINGS {
+            return self.surplus.insert(finding);
+        }
+        count.last = self.findings.len();
+        self.findings.push(finding);
+        &mut self.findings[count.last]
+    }
+
+    /// The findings; where a rule reported too many, its last one says so.
+    pub(crate) fn into_findings(mut self) -> Vec<Finding> {
+        for count in self.counts {
+            if let Some(more) = count.reported.checked_sub(MOST_FINDINGS).filter(|&more| more > 0) {
+                self.findings[count.last]
+                    .message
+                    .push_str(&format!("; {more} more findings of this rule are left out"));
+            }
+        }
+        self.findings
     }
 }

@@ -20,8 +20,11 @@ mod similar;
 mod testing;
 mod wording;
 
-pub use context::{Context, Report, Variable};
+pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use linter::Linter;
-pub use rule::{ALL_FILES, Check, DEVICE_FILES, FileKind, FileKinds, Group, Rule};
+pub use rule::{
+    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
+    ObjectCheck, Rule, SectionCheck, VariableCheck,
+};
 pub use rule_set::{RuleSet, UnknownRule, find};

@@ -16,8 +16,8 @@ mod value;
 
 pub use datasheet::{
     Channel, ChannelOffset, Commissioning, Datasheet, Description, DeviceInfo, DictionaryEntry, Entry, Field,
-    FileInfo, ImplicitPdo, ListItem, Module, ModuleCount, Object, Section, SubExtension, SubObject, Tool,
-    Topology, TopologyNode,
+    FileInfo, ImplicitPdo, ListItem, Module, ModuleCount, Object, Pdo, Section, SubExtension, SubObject,
+    Tool, Topology, TopologyNode,
 };
 pub use document::{Document, Encoding, Line, LineEnding, LineKind, Position, is_merge_marker};
 pub use key::{Key, KeyGroup, KeyName, Shape};

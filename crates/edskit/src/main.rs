@@ -1,3 +1,8 @@
-//! The edskit command line.
+//! The `edskit` command.
 
-fn main() {}
+use edskit::Streams;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    edskit::run(std::env::args_os(), &mut Streams::of_process()).into()
+}

@@ -1,6 +1,6 @@
 //! The object dictionary as the file means it, compact storage expanded entry by entry (CiA 306 v1.3, 4.6.3.4).
 
-use super::{Datasheet, Description, Entry, Object};
+use super::{Datasheet, Description, Entry, Field, Object};
 use crate::key::KeyName;
 use crate::section::SectionKind;
 use crate::value::{Number, Value};
@@ -92,7 +92,7 @@ impl<'a> DictionaryEntry<'a> {
     /// The value that counts: ParameterValue or the entry of `[xxxxValue]` where there is one, else the default.
     pub fn value(self) -> Option<Value<'a>> {
         let configured = match self.origin {
-            Origin::Described(description) => description.parameter_value()?.known(),
+            Origin::Described(description) => description.parameter_value().and_then(Field::known),
             Origin::Count(_) => None,
             Origin::Element(object) => self
                 .listed(object, SectionKind::CompactValues)
@@ -249,7 +249,9 @@ mod tests {
 
     #[test]
     fn a_variable_has_sub_index_0_alone() {
-        let sheet = Datasheet::parse(b"[1000]\nParameterName=Type\nDataType=7\n");
+        let sheet = Datasheet::parse(b"[1000]\nParameterName=Type\nDataType=7\nDefaultValue=3\n");
+        let value = sheet.dictionary_entry(Index(0x1000), SubIndex(0)).unwrap().value().unwrap();
+        assert_eq!(value.integer(DataType::Unsigned32, None), Ok(3));
         assert_eq!(sheet.dictionary_entry(Index(0x1000), SubIndex(0)).unwrap().name(), "Type");
         assert!(sheet.dictionary_entry(Index(0x1000), SubIndex(1)).is_none());
         assert!(sheet.dictionary_entry(Index(0x1001), SubIndex(0)).is_none());

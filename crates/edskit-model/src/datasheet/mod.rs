@@ -13,6 +13,7 @@ mod entry;
 mod info;
 mod modules;
 mod object;
+mod pdo;
 mod section;
 mod topology;
 
@@ -23,6 +24,7 @@ pub use entry::{Entry, Field};
 pub use info::{Commissioning, DeviceInfo, FileInfo};
 pub use modules::{Module, ModuleCount, SubExtension};
 pub use object::{Object, SubObject};
+pub use pdo::Pdo;
 pub use section::{ListItem, Section};
 pub use topology::{Topology, TopologyNode};
 

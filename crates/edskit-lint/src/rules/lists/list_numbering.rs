@@ -106,7 +106,7 @@ fn report_gap(context: &Context<'_>, list: List, gap: Gap<'_>, report: &mut Repo
     finding
         .help(format!("write `{}` for the key, and number the items behind it on from there", gap.missing));
     if let Some(section) = list.section(context.sheet)
-        && let Some(empty) = section.numbered(KeyName::Item, gap.missing)
+        && let Some(empty) = section.numbered(KeyName::Item, gap.missing).filter(|entry| entry.is_empty())
     {
         finding.label(empty.span(), "empty, which counts as missing");
         return;

@@ -1,0 +1,220 @@
+//! The command line's grammar.
+
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap_complete::Shell;
+use edskit_lint::Severity;
+use edskit_types::NodeId;
+use std::path::PathBuf;
+
+/// Lint, format and read CANopen EDS and DCF files (CiA 306).
+#[derive(Parser, Debug)]
+#[command(name = "edskit", version, max_term_width = 100)]
+#[command(after_help = "Exit codes: 0 clean, 1 findings, 2 something could not be done.")]
+pub struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+pub(crate) enum Command {
+    /// Check EDS, DCF and nodelist.cpj files
+    Lint(LintArguments),
+    /// Show the device that a file describes, one object, or one entry
+    Show(ShowArguments),
+    /// Say what rules report, why, and what to write instead
+    Explain(ExplainArguments),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Print the manual page
+    Man,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct LintArguments {
+    /// Files, or folders that are searched for .eds, .dcf and .cpj files; `-` reads standard input
+    #[arg(value_name = "PATH", default_value = ".", value_hint = ValueHint::AnyPath)]
+    pub(crate) paths: Vec<PathBuf>,
+    /// How findings are printed
+    #[arg(long, value_enum, default_value_t = LintFormat::Human)]
+    pub(crate) format: LintFormat,
+    /// Write to this file instead of standard output
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) output: Option<PathBuf>,
+    /// Run only these rules: codes, names or prefixes of codes, or ALL
+    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) select: Vec<String>,
+    /// Run these rules too, besides those that are on by default
+    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) extend_select: Vec<String>,
+    /// Do not run these rules
+    #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) ignore: Vec<String>,
+    /// Exit with 1 from this severity on
+    #[arg(long, value_name = "SEVERITY", value_enum, default_value_t = FailOn::Warning)]
+    pub(crate) fail_on: FailOn,
+    /// Print how often each rule fires instead of the findings
+    #[arg(long)]
+    pub(crate) statistics: bool,
+    /// Print findings only: no summary, no progress
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// When to use colour
+    #[arg(long, value_enum, default_value_t = Color::Auto)]
+    pub(crate) color: Color,
+    /// The name that standard input goes by; its ending says which kind of file it is
+    #[arg(long, value_name = "NAME", default_value = "stdin.eds")]
+    pub(crate) stdin_filename: String,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum LintFormat {
+    /// Source excerpts with labels
+    Human,
+    /// One line for each finding
+    Concise,
+    /// JSON
+    Json,
+    /// SARIF 2.1.0, for code scanning
+    Sarif,
+    /// Annotations of GitHub Actions
+    Github,
+    /// JUnit XML
+    Junit,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum FailOn {
+    /// Only errors
+    Error,
+    /// Warnings and errors
+    Warning,
+    /// Every finding
+    Info,
+}
+
+impl FailOn {
+    pub(crate) fn severity(self) -> Severity {
+        match self {
+            Self::Error => Severity::Error,
+            Self::Warning => Severity::Warning,
+            Self::Info => Severity::Info,
+        }
+    }
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Color {
+    /// On a terminal, unless NO_COLOR is set
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ShowArguments {
+    /// The file; `-` reads standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// One object, or one entry, in hexadecimal: `1018` or `1018:1`
+    #[arg(value_name = "INDEX[:SUB]", value_parser = parse_place)]
+    pub(crate) place: Option<Place>,
+    /// Evaluate `$NODEID` with this node-ID, 1..127; a DCF's own is used where none is given
+    #[arg(long, value_name = "ID", value_parser = parse_node_id)]
+    pub(crate) node_id: Option<NodeId>,
+    /// How it is printed
+    #[arg(long, value_enum, default_value_t = ShowFormat::Human)]
+    pub(crate) format: ShowFormat,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ShowFormat {
+    /// Text
+    Human,
+    /// JSON
+    Json,
+}
+
+/// An object, or one of its entries.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Place {
+    pub(crate) index: u16,
+    pub(crate) sub_index: Option<u8>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ExplainArguments {
+    /// Codes (SYN013), names (duplicate-section) or prefixes of codes (SYN)
+    #[arg(value_name = "RULE", required_unless_present = "all", conflicts_with = "all")]
+    pub(crate) rules: Vec<String>,
+    /// Every rule
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// How it is printed
+    #[arg(long, value_enum, default_value_t = ExplainFormat::Human)]
+    pub(crate) format: ExplainFormat,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ExplainFormat {
+    /// Text
+    Human,
+    /// A Markdown page with a table of the rules
+    Markdown,
+    /// JSON
+    Json,
+}
+
+fn parse_node_id(text: &str) -> Result<NodeId, String> {
+    let number = edskit_model::Number::parse(text.as_bytes()).map_err(|error| error.to_string())?;
+    let node_id = number.to::<u8>().and_then(|value| NodeId::new(value).ok());
+    node_id.ok_or_else(|| "a node-ID is 1..127".to_owned())
+}
+
+fn parse_place(text: &str) -> Result<Place, String> {
+    let hex =
+        |digits: &str| digits.strip_prefix("0x").or(digits.strip_prefix("0X")).unwrap_or(digits).to_owned();
+    let (index, sub_index) = match text.split_once([':', '.']) {
+        Some((index, sub_index)) => (index, Some(sub_index)),
+        None => (text, None),
+    };
+    let index = u16::from_str_radix(&hex(index.trim_end_matches(['h', 'H'])), 16)
+        .map_err(|_| format!("`{index}` is not an index of up to four hexadecimal digits"))?;
+    let sub_index = sub_index.map(|digits| {
+        u8::from_str_radix(&hex(digits.trim_end_matches(['h', 'H'])), 16)
+            .map_err(|_| format!("`{digits}` is not a sub-index of up to two hexadecimal digits"))
+    });
+    Ok(Place { index, sub_index: sub_index.transpose()? })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_grammar_is_sound() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn places_are_hexadecimal() {
+        assert_eq!(parse_place("1018"), Ok(Place { index: 0x1018, sub_index: None }));
+        assert_eq!(parse_place("0x1A00:0A"), Ok(Place { index: 0x1A00, sub_index: Some(10) }));
+        assert_eq!(parse_place("1018h:01h"), Ok(Place { index: 0x1018, sub_index: Some(1) }));
+        assert!(
+            parse_place("10180").is_err() && parse_place("1018:100").is_err() && parse_place("x").is_err()
+        );
+    }
+
+    #[test]
+    fn node_ids_are_1_to_127() {
+        assert_eq!(parse_node_id("0x7F").map(NodeId::get), Ok(127));
+        assert!(parse_node_id("0").is_err() && parse_node_id("128").is_err() && parse_node_id("a").is_err());
+    }
+}

@@ -1,0 +1,115 @@
+//! Finding and reading the files of a command.
+
+use crate::Streams;
+use edskit_model::Datasheet;
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// Endings of the files that a folder is searched for, in any case.
+const ENDINGS: [&str; 3] = ["eds", "dcf", "cpj"];
+
+/// Where one input comes from.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Input {
+    /// A file.
+    File(PathBuf),
+    /// Standard input, read already.
+    Stdin(Vec<u8>),
+}
+
+impl Input {
+    /// The path as it is shown: `/` between its parts on every system.
+    pub(crate) fn name(&self, stdin_name: &str) -> String {
+        match self {
+            Self::File(path) if cfg!(windows) => path.to_string_lossy().replace('\\', "/"),
+            Self::File(path) => path.to_string_lossy().into_owned(),
+            Self::Stdin(_) => stdin_name.to_owned(),
+        }
+    }
+
+    /// The bytes.
+    pub(crate) fn read(&self) -> io::Result<Vec<u8>> {
+        match self {
+            Self::File(path) => fs::read(path),
+            Self::Stdin(bytes) => Ok(bytes.clone()),
+        }
+    }
+}
+
+/// What `paths` name: each file once, folders searched, in the order of the arguments and sorted within a folder.
+#[derive(Default)]
+pub(crate) struct Inputs {
+    pub(crate) inputs: Vec<Input>,
+    /// What could not be searched, and why.
+    pub(crate) failures: Vec<String>,
+}
+
+pub(crate) fn find(paths: &[PathBuf], streams: &mut Streams) -> io::Result<Inputs> {
+    let mut found = Inputs::default();
+    for path in paths {
+        if path.as_os_str() == "-" {
+            let mut bytes = Vec::new();
+            streams.stdin.read_to_end(&mut bytes)?;
+            found.inputs.push(Input::Stdin(bytes));
+        } else if path.is_dir() {
+            search(path, &mut found);
+        } else {
+            found.inputs.push(Input::File(path.clone()));
+        }
+    }
+    let mut seen = std::collections::HashSet::new();
+    found.inputs.retain(|input| match input {
+        Input::File(path) => seen.insert(path.clone()),
+        Input::Stdin(_) => true,
+    });
+    Ok(found)
+}
+
+/// Adds the files below `folder` that end like a CANopen file; what git ignores is passed over.
+fn search(folder: &Path, found: &mut Inputs) {
+    let mut files = Vec::new();
+    for entry in ignore::WalkBuilder::new(folder).require_git(false).build() {
+        match entry {
+            Ok(entry) if entry.path().is_file() && has_known_ending(entry.path()) => {
+                let path = entry.into_path();
+                files.push(path.strip_prefix("./").map(Path::to_path_buf).unwrap_or(path));
+            }
+            Ok(_) => {}
+            Err(error) => found.failures.push(error.to_string()),
+        }
+    }
+    if files.is_empty() {
+        found.failures.push(format!("{}: no .eds, .dcf or .cpj file in this folder", folder.display()));
+    }
+    files.sort();
+    found.inputs.extend(files.into_iter().map(Input::File));
+}
+
+fn has_known_ending(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known))
+}
+
+/// Reads one file or standard input into a datasheet; the error names the file.
+pub(crate) fn read_datasheet(path: &Path, streams: &mut Streams) -> io::Result<Datasheet> {
+    let bytes = if path.as_os_str() == "-" {
+        let mut bytes = Vec::new();
+        streams.stdin.read_to_end(&mut bytes)?;
+        bytes
+    } else {
+        fs::read(path)
+            .map_err(|error| io::Error::new(error.kind(), unreadable(&path.to_string_lossy(), &error)))?
+    };
+    Ok(Datasheet::new(edskit_model::Document::from_vec(bytes)))
+}
+
+/// Why a file could not be read.
+pub(crate) fn unreadable(name: &str, error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => format!("{name}: there is no such file or folder"),
+        io::ErrorKind::PermissionDenied => format!("{name}: no permission to read it"),
+        io::ErrorKind::IsADirectory => format!("{name}: this is a folder"),
+        _ => format!("{name}: {error}"),
+    }
+}

@@ -1,0 +1,55 @@
+//! The edskit command line as a library, so that tests run it without a process.
+//!
+//! This is the only crate of the desk half that opens files, knows a terminal and knows JSON.
+
+mod cli;
+mod explain;
+mod files;
+mod generated;
+mod lint;
+mod positions;
+mod show;
+mod streams;
+
+pub use cli::Cli;
+pub use streams::{Exit, Streams};
+
+use clap::Parser;
+use std::ffi::OsString;
+use std::io;
+
+/// Runs one command line and says how it ended.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams) -> Exit {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error, streams),
+    };
+    let result = match cli.command {
+        cli::Command::Lint(arguments) => lint::run(&arguments, streams),
+        cli::Command::Show(arguments) => show::run(&arguments, streams),
+        cli::Command::Explain(arguments) => explain::run(&arguments, streams),
+        cli::Command::Completions { shell } => generated::completions(shell, streams),
+        cli::Command::Man => generated::man(streams),
+    };
+    match result {
+        Ok(exit) => exit,
+        // Whoever reads the output has seen enough, as `head` does.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Exit::Clean,
+        Err(error) => {
+            streams.complain(format_args!("{error}"));
+            Exit::Failed
+        }
+    }
+}
+
+/// Help and version are no failures; anything else is.
+fn usage(error: &clap::Error, streams: &mut Streams) -> Exit {
+    let failed = error.use_stderr();
+    let styled = error.render();
+    let text = if streams.is_terminal { styled.ansi().to_string() } else { styled.to_string() };
+    let stream = if failed { &mut streams.stderr } else { &mut streams.stdout };
+    match stream.write_all(text.as_bytes()) {
+        Ok(()) if !failed => Exit::Clean,
+        _ => Exit::Failed,
+    }
+}
