@@ -5,7 +5,7 @@ use edskit_model::{Datasheet, Document, Entry, KeyName, Number, Radix, Section, 
 use edskit_types::{Index, ObjectArea};
 
 /// One of the lists of objects.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) enum List {
     Mandatory,
     Optional,
@@ -184,8 +184,8 @@ impl Listing {
 
     /// The items of one list.
     pub(crate) fn items_of(&self, list: List) -> &[Item] {
-        let first = self.items.partition_point(|item| (item.list as u8) < list as u8);
-        let end = self.items.partition_point(|item| item.list as u8 <= list as u8);
+        let first = self.items.partition_point(|item| item.list < list);
+        let end = self.items.partition_point(|item| item.list <= list);
         &self.items[first..end]
     }
 

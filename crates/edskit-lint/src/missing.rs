@@ -67,7 +67,10 @@ impl<'a> Missing<'a> {
         }
         let known: Vec<(KeyName, String)> =
             self.keys().filter_map(|key| computed(key).map(|value| (key, value))).collect();
-        if !known.is_empty() {
+        if known.is_empty() {
+            let pronoun = if absent.len() + empty.len() == 1 { "it" } else { "each of them" };
+            finding.help(format!("give {pronoun} a value"));
+        } else {
             let lines: Vec<String> =
                 known.iter().map(|(key, value)| format!("`{}={value}`", key.spelling())).collect();
             finding

@@ -7,7 +7,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports a `DynamicChannelsSupported` other than 0 in a file without `[DynamicChannels]`. The other way round, a
-    /// section that a 0 switches off, is a warning.
+    /// section with segments that a 0 switches off, is a warning.
     ///
     /// ## Why is this bad
     /// The entry announces network variables, and the section says which indices they may have. A programming system
@@ -49,7 +49,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let claimed = context.sheet.device_info().and_then(|info| info.dynamic_channels_supported());
     let Some((field, claimed)) = claimed.and_then(|field| Some((field, field.known()?))) else { return };
     match (claimed, context.sheet.section(SectionKind::DynamicChannels)) {
-        (0, Some(section)) => {
+        (0, Some(section)) if context.sheet.dynamic_channels().next().is_some() => {
             report
                 .add(
                     field.span(),
@@ -78,11 +78,13 @@ mod tests {
 
     #[test]
     fn both_or_none() {
-        let with =
-            |value: &str| format!("[DeviceInfo]\nDynamicChannelsSupported={value}\n[DynamicChannels]\n");
+        let with = |value: &str| {
+            format!("[DeviceInfo]\nDynamicChannelsSupported={value}\n[DynamicChannels]\nNrOfSeg=1\n")
+        };
         let without = |value: &str| format!("[DeviceInfo]\nDynamicChannelsSupported={value}\n");
         assert!(findings(&DYNAMIC_CHANNELS_SECTION, &with("0x1")).is_empty());
         assert!(findings(&DYNAMIC_CHANNELS_SECTION, &with("")).is_empty());
+        assert!(findings(&DYNAMIC_CHANNELS_SECTION, &with("0").replace("Seg=1", "Seg=0")).is_empty());
         assert!(findings(&DYNAMIC_CHANNELS_SECTION, &without("0")).is_empty());
         assert_eq!(
             findings(&DYNAMIC_CHANNELS_SECTION, &with("0")),

@@ -10,14 +10,19 @@ pub(super) const NUMBERS: [(KeyName, SubIndex); 3] = [
     (KeyName::RevisionNumber, SubIndex(3)),
 ];
 
-/// What 1018h says at `sub_index`: the default value, or the value of a DCF where there is no default.
-pub(super) fn value(sheet: &Datasheet, sub_index: SubIndex) -> Option<(u32, Entry<'_>)> {
-    let sub = sheet.sub_object(Index::IDENTITY, sub_index)?;
-    let field = sub.default_value().or_else(|| sub.parameter_value())?;
-    match field.known()? {
+/// What 1018h says at `sub_index`: the default value, and the value of a DCF.
+pub(super) fn values(sheet: &Datasheet, sub_index: SubIndex) -> impl Iterator<Item = (u32, Entry<'_>)> {
+    let sub = sheet.sub_object(Index::IDENTITY, sub_index);
+    let fields = sub.map(|sub| [sub.default_value(), sub.parameter_value()]).into_iter().flatten().flatten();
+    fields.filter_map(|field| match field.known()? {
         Value::Integer(number) => Some((number.to()?, field.entry)),
         _ => None,
-    }
+    })
+}
+
+/// The value of 1018h that counts first: the default.
+pub(super) fn value(sheet: &Datasheet, sub_index: SubIndex) -> Option<(u32, Entry<'_>)> {
+    values(sheet, sub_index).next()
 }
 
 /// What `[DeviceInfo]` says.

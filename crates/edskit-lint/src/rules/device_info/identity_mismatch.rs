@@ -1,4 +1,4 @@
-use super::identity::{NUMBERS, number, value};
+use super::identity::{NUMBERS, number, value, values};
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
 use edskit_types::Index;
@@ -8,7 +8,7 @@ rule! {
     ///
     /// ## What it does
     /// Compares `VendorNumber`, `ProductNumber` and `RevisionNumber` with the values of 1018h sub-index 01h, 02h and
-    /// 03h. It is an info where one of the two is 0, as in templates.
+    /// 03h, the default or the one of a DCF. It is an info where one of the two is 0, as in templates.
     ///
     /// ## Why is this bad
     /// Tools find the file for a device on the bus by these numbers, some by the section and some by the object. A
@@ -55,7 +55,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for (name, sub_index) in NUMBERS {
         let Some((claimed, entry)) = number(context.sheet, name) else { continue };
         let Some((actual, object)) = value(context.sheet, sub_index) else { continue };
-        if claimed == actual {
+        // In a DCF the default may be the one of a whole family, and the value the one of this device.
+        if values(context.sheet, sub_index).any(|(value, _)| value == claimed) {
             continue;
         }
         let (name, place) = (name.spelling(), format!("{} sub-index {sub_index}", Index::IDENTITY));
@@ -115,5 +116,7 @@ mod tests {
             findings(&IDENTITY_MISMATCH, text),
             ["2:16 warning: RevisionNumber is `1`, but 1018h sub-index 03h is `2`"]
         );
+        let text = format!("{text}DefaultValue=1\n");
+        assert!(findings(&IDENTITY_MISMATCH, &text).is_empty());
     }
 }

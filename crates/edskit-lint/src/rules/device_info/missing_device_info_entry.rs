@@ -98,11 +98,16 @@ fn check(context: &Context<'_>, report: &mut Report) {
 
 /// The value that the objects of the file give an entry.
 fn computed(sheet: &Datasheet, key: KeyName) -> Option<String> {
-    let pdo_count = |direction| Some(pdos::communication(sheet, direction).len().to_string());
+    let pdo_count = |direction| {
+        // Modules and compact storage bring PDOs that no object describes.
+        let mask = sheet.device_info().and_then(|info| info.compact_pdo());
+        let is_complete =
+            sheet.supported_modules().is_none() && mask.is_none_or(|mask| mask.known() == Some(0));
+        is_complete.then(|| pdos::communication(sheet, direction).len().to_string())
+    };
     match key {
-        // Modules bring PDOs that no object of the device describes.
-        KeyName::NrOfRxPdo if sheet.supported_modules().is_none() => pdo_count(PdoDirection::Receive),
-        KeyName::NrOfTxPdo if sheet.supported_modules().is_none() => pdo_count(PdoDirection::Transmit),
+        KeyName::NrOfRxPdo => pdo_count(PdoDirection::Receive),
+        KeyName::NrOfTxPdo => pdo_count(PdoDirection::Transmit),
         _ => {
             let (_, sub_index) = identity::NUMBERS.into_iter().find(|&(name, _)| name == key)?;
             let (number, entry) = identity::value(sheet, sub_index)?;

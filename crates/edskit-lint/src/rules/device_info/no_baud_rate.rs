@@ -52,7 +52,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
         return;
     }
     let message = if flags.is_empty() {
-        "`[DeviceInfo]` says about no bit rate that it is supported"
+        "no bit rate is supported: there is no `BaudRate_*` with a value"
     } else {
         "no bit rate is supported: every `BaudRate_*` is 0"
     };
@@ -86,7 +86,7 @@ mod tests {
         }
         assert_eq!(
             findings(&NO_BAUD_RATE, "[DeviceInfo]\nBaudRate_10=\nBaudRate_100=0\n"),
-            ["1:1 warning: `[DeviceInfo]` says about no bit rate that it is supported"]
+            ["1:1 warning: no bit rate is supported: there is no `BaudRate_*` with a value"]
         );
     }
 

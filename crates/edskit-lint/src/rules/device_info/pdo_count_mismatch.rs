@@ -97,9 +97,14 @@ fn check_direction(
     for object in pdos::communication(context.sheet, direction).take(FEW) {
         finding.label(object.span(), format!("{noun} {}", object.index().0 % MOST + 1));
     }
-    finding
-        .help(format!("write `{key}={described}`, or describe the others"))
-        .unsafe_fix(format!("Write {described}"), vec![Edit::replace(field.span(), described.to_string())]);
+    if usize::from(claimed) < described {
+        finding.help(format!("write `{key}={described}`")).unsafe_fix(
+            format!("Write {described}"),
+            vec![Edit::replace(field.span(), described.to_string())],
+        );
+    } else {
+        finding.help(format!("write `{key}={described}`, or describe the others"));
+    }
 }
 
 #[cfg(test)]
@@ -128,7 +133,7 @@ mod tests {
         assert_eq!(found("NrOfRXPDO=9\nCompactPDO=0").len(), 1);
         assert_eq!(found("NrOfRXPDO=1\nCompactPDO=3").len(), 1);
         assert_eq!(
-            fixed(&PDO_COUNT_MISMATCH, "[DeviceInfo]\nNrOfRXPDO=9\n[1401]\n"),
+            fixed(&PDO_COUNT_MISMATCH, "[DeviceInfo]\nNrOfRXPDO=0\n[1401]\n"),
             "[DeviceInfo]\nNrOfRXPDO=1\n[1401]\n"
         );
     }

@@ -3,6 +3,7 @@ use crate::rule::rule;
 use crate::wording::{FEW, few};
 use crate::{Context, Report};
 use edskit_types::{Index, ObjectArea};
+use std::collections::HashSet;
 
 rule! {
     /// An object is listed as mandatory that CANopen does not demand
@@ -57,7 +58,13 @@ fn check(context: &Context<'_>, report: &mut Report) {
             index.area() == ObjectArea::Communication && List::of(index) == Some(List::Optional)
         })
     };
-    let extra: Vec<&Item> = context.listing().items_of(List::Mandatory).iter().filter(is_extra).collect();
+    let mut extra: Vec<&Item> = context.listing().items_of(List::Mandatory).iter().filter(is_extra).collect();
+    if !extra.is_empty() {
+        // What the optional list names, too, is the matter of LST006.
+        let optional = context.listing().items_of(List::Optional).iter().filter_map(|item| item.index);
+        let optional: HashSet<Index> = optional.collect();
+        extra.retain(|item| item.index.is_none_or(|index| !optional.contains(&index)));
+    }
     let Some(first) = extra.first() else { return };
     let indices: Vec<Index> = extra.iter().filter_map(|item| item.index).collect();
     let verb = if indices.len() == 1 { "is" } else { "are" };
@@ -89,5 +96,7 @@ mod tests {
             ["3:3 info: 1005h and 1008h are listed as mandatory, but not every device needs to have them"]
         );
         assert!(findings(&EXTRA_MANDATORY, "[OptionalObjects]\n1=0x1005\n").is_empty());
+        let twice = "[MandatoryObjects]\n1=0x1005\n[OptionalObjects]\n1=0x1005\n";
+        assert!(findings(&EXTRA_MANDATORY, twice).is_empty());
     }
 }

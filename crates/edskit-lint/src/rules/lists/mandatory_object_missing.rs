@@ -74,7 +74,9 @@ fn check(context: &Context<'_>, report: &mut Report) {
         finding.severity(Severity::Warning).here("1018h is mandatory since CANopen version 4");
     }
     let sections: Vec<String> = missing.iter().map(|index| format!("`[{index:X}]`")).collect();
-    finding.help(format!("describe {}, and list it in `[MandatoryObjects]`", series(&sections, "and")));
+    let pronoun = if missing.len() == 1 { "it" } else { "them" };
+    finding
+        .help(format!("describe {}, and list {pronoun} in `[MandatoryObjects]`", series(&sections, "and")));
 }
 
 const fn name(index: Index) -> &'static str {

@@ -92,8 +92,8 @@ fn report_list(
     finding.label(section.span(), "the list");
     let first = context.listing().items_of(list).len() + 1;
     let count = first - 1 + unlisted.len();
-    finding
-        .help(format!("add `{first}=0x{:04X}` and so on, and write `SupportedObjects={count}`", unlisted[0]));
+    let more = if unlisted.len() == 1 { "" } else { " and so on" };
+    finding.help(format!("add `{first}=0x{:04X}`{more}, and write `SupportedObjects={count}`", unlisted[0]));
     if edits::is_regular(context, list) {
         finding.unsafe_fix("Add them to the list", edits::append(context, list, unlisted));
     }

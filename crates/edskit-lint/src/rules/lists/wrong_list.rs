@@ -4,7 +4,7 @@ use crate::rule::rule;
 use crate::wording::{FEW, few};
 use crate::{Context, Edit, Report};
 use edskit_types::{Index, ObjectArea};
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 rule! {
     /// An object is in the wrong list
@@ -58,22 +58,19 @@ fn check(context: &Context<'_>, report: &mut Report) {
         .file_info()
         .and_then(|info| info.eds_version())
         .is_some_and(|version| matches!(version.raw(), [b'4'..=b'9', ..]));
-    for list in List::ALL {
-        let items = context.listing().items_of(list);
-        for right in List::ALL {
-            let belongs = |item: &&Item| {
-                item.index.and_then(|index| right_list(list, index, is_edition_4)) == Some(right)
-            };
-            let mut misplaced: Vec<&Item> = items.iter().filter(belongs).collect();
-            if !misplaced.is_empty() {
-                // What the right list names, too, is the matter of LST006.
-                let there: HashSet<Index> =
-                    context.listing().items_of(right).iter().filter_map(|item| item.index).collect();
-                misplaced.retain(|item| item.index.is_some_and(|index| !there.contains(&index)));
-            }
-            if !misplaced.is_empty() {
-                report_items(context, list, right, &misplaced, report);
-            }
+    let mut misplaced: BTreeMap<(List, List), Vec<&Item>> = BTreeMap::new();
+    for item in context.listing().items() {
+        if let Some(right) = item.index.and_then(|index| right_list(item.list, index, is_edition_4)) {
+            misplaced.entry((item.list, right)).or_default().push(item);
+        }
+    }
+    for ((list, right), mut items) in misplaced {
+        // What the right list names, too, is the matter of LST006.
+        let there: HashSet<Index> =
+            context.listing().items_of(right).iter().filter_map(|item| item.index).collect();
+        items.retain(|item| item.index.is_some_and(|index| !there.contains(&index)));
+        if !items.is_empty() {
+            report_items(context, list, right, &items, report);
         }
     }
 }
