@@ -8,9 +8,12 @@
 mod build;
 mod channels;
 mod compact;
+mod compare;
 mod description;
 mod entry;
+mod identity;
 mod info;
+mod meaning;
 mod modules;
 mod object;
 mod pdo;
@@ -19,9 +22,12 @@ mod topology;
 
 pub use channels::{Channel, ChannelOffset, Tool};
 pub use compact::{DictionaryEntry, ImplicitPdo};
+pub use compare::{Difference, same_meaning};
 pub use description::Description;
 pub use entry::{Entry, Field};
+pub(crate) use identity::Identity;
 pub use info::{Commissioning, DeviceInfo, FileInfo};
+pub(crate) use meaning::lists_indices;
 pub use modules::{Module, ModuleCount, SubExtension};
 pub use object::{Object, SubObject};
 pub use pdo::Pdo;
