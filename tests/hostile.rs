@@ -24,9 +24,11 @@ const NUMBERS: usize = 65_000;
 /// The length of a line that never ends.
 const LONG: usize = 1_000_000;
 
+type Hostile = (&'static str, &'static str, usize, fn(usize) -> String);
+
 /// Hostile files: what they are, a name with the ending that counts, and how one of a given size is made. The size is
 /// a number of bytes where [`LONG`] stands, else a number of lines.
-const FILES: &[(&str, &str, usize, fn(usize) -> String)] = &[
+const FILES: &[Hostile] = &[
     ("one line of NUL", "a.eds", LONG, |size| object(&"\0".repeat(size))),
     ("only NUL", "a.eds", LONG, |size| "\0".repeat(size)),
     ("one line of [", "a.eds", LONG, |size| object(&"[".repeat(size))),

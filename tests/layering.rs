@@ -130,7 +130,7 @@ fn unsafe_code_stands_in_one_file_only() {
     let mut found = Vec::new();
     for folder in ["crates", "tests", "benches"] {
         for (path, text) in sources(&root.join(folder)) {
-            if text.lines().any(|line| has_word(line, "unsafe_code")) {
+            if text.lines().any(|line| has_word(line, "unsafe_code") && !line.contains("forbid")) {
                 found.push(path.strip_prefix(&root).expect("sources are in the repository").to_owned());
             }
         }
