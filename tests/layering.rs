@@ -20,9 +20,9 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
     ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde"])),
     ("edskit", &["edskit-types", "edskit-model", "edskit-lint"], Any),
-    ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint"], Any),
-    ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint"], Any),
-    ("xtask", &["edskit-types", "edskit-model", "edskit-lint"], Any),
+    ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit"], Any),
+    ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),
+    ("xtask", &["edskit-types", "edskit-model", "edskit-lint", "edskit"], Any),
 ];
 
 /// What only the outer edge may name: files, the network, processes, clocks, the terminal.
