@@ -18,7 +18,7 @@ fuzz_target!(|bytes: &[u8]| {
     }
     for entry in sheet.entries() {
         let _ = (entry.key_text(), entry.text(), entry.section().map(|section| section.id()));
-        assert!(entry.span().contains(entry.value_span()));
+        assert!(entry.line().span().contains(entry.value_span()));
     }
     for object in sheet.objects().take(EXPANDED) {
         for entry in object.dictionary_entries() {
