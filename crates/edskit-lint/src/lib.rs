@@ -7,6 +7,7 @@
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
 mod context;
+mod edits;
 mod finding;
 mod inline_comment;
 mod linter;
@@ -16,6 +17,7 @@ pub mod rules;
 mod similar;
 #[cfg(test)]
 mod testing;
+mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
