@@ -22,7 +22,7 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit", &["edskit-types", "edskit-model", "edskit-lint"], Any),
     ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit"], Any),
     ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),
-    ("xtask", &["edskit-types", "edskit-model", "edskit-lint", "edskit"], Any),
+    ("xtask", &[], Any),
 ];
 
 /// What only the outer edge may name: files, the network, processes, clocks, the terminal.
