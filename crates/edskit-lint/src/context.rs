@@ -165,7 +165,7 @@ pub struct Report {
     rule: &'static Rule,
     /// Position of the rule in `counts`.
     slot: usize,
-    findings: Vec<Finding>,
+    pub(crate) findings: Vec<Finding>,
     /// For each rule how many it reported, and where its last finding is that was kept.
     counts: Vec<Count>,
     /// The last finding that is not kept.
