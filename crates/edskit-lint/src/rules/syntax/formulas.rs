@@ -128,7 +128,7 @@ mod tests {
                     [2000]\nDefaultValue=$5\nLowLimit=$NodeID ; x\nHighLimit=NODEID\nSubNumber=$NODEID\n\
                     [x]\na=$NODEID\n[DeviceComissioning]\nNodeID=5\nNodeName=$NODEID";
         let sheet = Datasheet::parse(text.as_bytes());
-        let context = Context { sheet: &sheet, kind: FileKind::Eds, file_name: None };
+        let context = Context::new(&sheet, FileKind::Eds, None);
         let found: Vec<_> = entries(&context).map(|(entry, place)| (entry.line_number(), place)).collect();
         assert_eq!(found, [(2, Place::Value), (11, Place::Value), (12, Place::Number)]);
     }

@@ -48,7 +48,7 @@ mod tests {
 
     fn found(text: &str) -> Vec<String> {
         let sheet = Datasheet::parse(text.as_bytes());
-        let context = Context { sheet: &sheet, kind: FileKind::Eds, file_name: None };
+        let context = Context::new(&sheet, FileKind::Eds, None);
         let headers = (0..sheet.document().lines().len()).filter_map(|number| on_line(&context, number));
         headers.map(|header| sheet.text(header).into_owned()).collect()
     }

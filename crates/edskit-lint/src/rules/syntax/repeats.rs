@@ -23,7 +23,7 @@ mod tests {
     #[test]
     fn the_first_of_each_kind_is_not_one_of_them() {
         let sheet = Datasheet::parse(b"[1000]\n[x]\n[1001]\n[0x1000]\n[x]\n[1001]\n[1001]\n");
-        let context = Context { sheet: &sheet, kind: FileKind::Eds, file_name: None };
+        let context = Context::new(&sheet, FileKind::Eds, None);
         let pairs: Vec<_> = of_cia_306(&context).map(|(first, again)| (first.id(), again.id())).collect();
         assert_eq!(pairs, [(0, 3), (2, 5), (2, 6)]);
     }
