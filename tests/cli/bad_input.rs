@@ -22,13 +22,17 @@ fn bad_options_are_explained() {
     for (number, arguments) in cases.into_iter().enumerate() {
         let output = edskit(arguments);
         assert_eq!(output.exit, Exit::Failed, "{arguments:?}");
-        insta::assert_snapshot!(format!("bad_option_{number:02}"), format!("{arguments:?}\n{}", output.all()));
+        insta::assert_snapshot!(
+            format!("bad_option_{number:02}"),
+            format!("{arguments:?}\n{}", output.all())
+        );
     }
 }
 
 #[test]
 fn files_that_are_no_canopen_files_get_one_finding() {
-    let utf16: Vec<u8> = "[FileInfo]\r\nFileName=a.eds\r\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let utf16: Vec<u8> =
+        "[FileInfo]\r\nFileName=a.eds\r\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
     let cases: [(&str, &[u8]); 11] = [
         ("empty", b""),
         ("blank", b"\r\n  \r\n"),

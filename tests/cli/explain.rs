@@ -16,7 +16,8 @@ fn a_prefix_names_all_its_rules() {
 
 #[test]
 fn json_has_every_rule() {
-    let rules: serde_json::Value = serde_json::from_str(&edskit(&["explain", "--all", "--format", "json"]).stdout).unwrap();
+    let rules: serde_json::Value =
+        serde_json::from_str(&edskit(&["explain", "--all", "--format", "json"]).stdout).unwrap();
     let rules = rules.as_array().unwrap();
     assert!(rules.len() > 90);
     for rule in rules {

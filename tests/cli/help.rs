@@ -28,7 +28,10 @@ fn completions_for_every_shell_know_the_commands() {
 fn the_manual_page_has_every_command() {
     let page = edskit(&["man"]).stdout;
     for command in ["edskit", "lint", "fmt", "show", "explain"] {
-        assert!(page.contains(&format!(".TH {command}")) || page.contains(&format!(".TH edskit-{command}")), "{command}");
+        assert!(
+            page.contains(&format!(".TH {command}")) || page.contains(&format!(".TH edskit-{command}")),
+            "{command}"
+        );
     }
     assert!(page.contains("\\-\\-fail\\-on"));
 }

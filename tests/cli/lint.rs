@@ -26,7 +26,10 @@ fn shipped_files_are_clean() {
 #[test]
 fn every_format() {
     for format in ["human", "concise", "json", "github", "junit"] {
-        insta::assert_snapshot!(format!("format_{format}"), edskit(&["lint", FAULTY, "--format", format]).all());
+        insta::assert_snapshot!(
+            format!("format_{format}"),
+            edskit(&["lint", FAULTY, "--format", format]).all()
+        );
     }
     let colored = edskit(&["lint", FAULTY, "--color", "always"]);
     assert!(colored.stdout.contains("\u{1b}[") && !edskit(&["lint", FAULTY]).stdout.contains('\u{1b}'));
@@ -37,7 +40,9 @@ fn sarif_follows_its_schema() {
     let schema = std::fs::read("fixtures/sarif-2.1.0.schema.json").unwrap();
     let schema = serde_json::from_slice(&schema).unwrap();
     let validator = jsonschema::validator_for(&schema).unwrap();
-    for arguments in [&["lint", FAULTY, "--format", "sarif"][..], &["lint", "missing.eds", "--format", "sarif"]] {
+    for arguments in
+        [&["lint", FAULTY, "--format", "sarif"][..], &["lint", "missing.eds", "--format", "sarif"]]
+    {
         let mut log: serde_json::Value = serde_json::from_str(&edskit(arguments).stdout).unwrap();
         let errors: Vec<String> = validator.iter_errors(&log).map(|error| error.to_string()).collect();
         assert!(errors.is_empty(), "{errors:#?}");
@@ -53,7 +58,10 @@ fn sarif_follows_its_schema() {
 #[test]
 fn statistics() {
     insta::assert_snapshot!("statistics", edskit(&["lint", FAULTY, "--statistics"]).all());
-    insta::assert_snapshot!("statistics_json", edskit(&["lint", FAULTY, "--statistics", "--format", "json"]).all());
+    insta::assert_snapshot!(
+        "statistics_json",
+        edskit(&["lint", FAULTY, "--statistics", "--format", "json"]).all()
+    );
 }
 
 #[test]
@@ -68,7 +76,9 @@ fn rules_are_selected_by_code_prefix_and_name() {
     };
     assert_eq!(codes(&["--select", "SYN013"]), ["SYN013"]);
     assert_eq!(codes(&["--select", "duplicate-section"]), ["SYN013"]);
-    assert!(codes(&["--select", "OBJ,SYN"]).iter().all(|code| code.starts_with("OBJ") || code.starts_with("SYN")));
+    assert!(
+        codes(&["--select", "OBJ,SYN"]).iter().all(|code| code.starts_with("OBJ") || code.starts_with("SYN"))
+    );
     assert!(!codes(&["--ignore", "SYN"]).iter().any(|code| code.starts_with("SYN")));
     assert!(codes(&["--select", "SYN", "--ignore", "SYN"]).is_empty());
     assert!(codes(&["--extend-select", "FIL008"]).contains(&"FIL008".to_owned()));
@@ -85,11 +95,19 @@ fn the_exit_code_follows_the_threshold() {
 
 #[test]
 fn standard_input_has_a_name() {
-    let output = edskit_with_input(&["lint", "-", "--format", "concise", "--select", "SYN013"], b"[1000]\n[1000]\n");
-    assert_eq!(output.stdout, "stdin.eds:2:1: error[SYN013] section `[1000]` stands a second time\n1 error in 1 of 1 file\n");
-    let arguments = ["lint", "-", "--format", "concise", "--stdin-filename", "net.cpj", "--select", "SYN013,LST"];
+    let output =
+        edskit_with_input(&["lint", "-", "--format", "concise", "--select", "SYN013"], b"[1000]\n[1000]\n");
+    assert_eq!(
+        output.stdout,
+        "stdin.eds:2:1: error[SYN013] section `[1000]` stands a second time\n1 error in 1 of 1 file\n"
+    );
+    let arguments =
+        ["lint", "-", "--format", "concise", "--stdin-filename", "net.cpj", "--select", "SYN013,LST"];
     let output = edskit_with_input(&arguments, b"[Topology]\n[TOPOLOGY]\n");
-    assert_eq!(output.stdout, "net.cpj:2:1: error[SYN013] section `[TOPOLOGY]` stands a second time\n1 error in 1 of 1 file\n");
+    assert_eq!(
+        output.stdout,
+        "net.cpj:2:1: error[SYN013] section `[TOPOLOGY]` stands a second time\n1 error in 1 of 1 file\n"
+    );
 }
 
 #[test]
@@ -105,7 +123,8 @@ fn folders_are_searched_and_git_is_heeded() {
     assert_eq!(names, expected);
     // A file that is named is linted whatever git says, and only once.
     let ignored = format!("{}/ignored/d.eds", folder.path());
-    let output = edskit(&["lint", &ignored, &ignored, "--select", "SYN013", "--format", "concise", "--quiet"]);
+    let output =
+        edskit(&["lint", &ignored, &ignored, "--select", "SYN013", "--format", "concise", "--quiet"]);
     assert_eq!(output.stdout.lines().count(), 1);
 }
 
@@ -132,14 +151,16 @@ fn output_goes_to_a_file() {
 
 #[test]
 fn the_rest_is_linted_when_a_file_is_missing() {
-    let output = edskit(&["lint", "fixtures/missing.eds", FAULTY, "--format", "concise", "--select", "SYN013"]);
+    let output =
+        edskit(&["lint", "fixtures/missing.eds", FAULTY, "--format", "concise", "--select", "SYN013"]);
     insta::assert_snapshot!("one_file_missing", output.all());
     assert_eq!(output.exit, Exit::Failed);
 }
 
 #[test]
 fn every_odd_file_says_what_is_odd() {
-    let mut names: Vec<_> = std::fs::read_dir("fixtures/oddities").unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut names: Vec<_> =
+        std::fs::read_dir("fixtures/oddities").unwrap().map(|entry| entry.unwrap().path()).collect();
     names.sort();
     assert!(names.len() > 20);
     for path in names {

@@ -2,7 +2,6 @@
 
 mod bad_input;
 mod explain;
-mod fmt;
 mod help;
 mod lint;
 mod show;
@@ -22,8 +21,15 @@ struct Output {
 impl Output {
     /// Everything in one text, for snapshots.
     fn all(&self) -> String {
-        let stream = |name: &str, text: &str| if text.is_empty() { String::new() } else { format!("--- {name}\n{text}") };
-        format!("{}{}--- exit {}", stream("stdout", &self.stdout), stream("stderr", &self.stderr), self.exit.code())
+        let stream = |name: &str, text: &str| {
+            if text.is_empty() { String::new() } else { format!("--- {name}\n{text}") }
+        };
+        format!(
+            "{}{}--- exit {}",
+            stream("stdout", &self.stdout),
+            stream("stderr", &self.stderr),
+            self.exit.code()
+        )
     }
 }
 

@@ -22,7 +22,8 @@ fn one_object_with_its_pdo() {
 #[test]
 fn json() {
     insta::assert_snapshot!("show_object_json", edskit(&["show", DRIVE, "1A00", "--format", "json"]).all());
-    let device: serde_json::Value = serde_json::from_str(&edskit(&["show", DRIVE, "--format", "json"]).stdout).unwrap();
+    let device: serde_json::Value =
+        serde_json::from_str(&edskit(&["show", DRIVE, "--format", "json"]).stdout).unwrap();
     assert_eq!(device["node_id"], 12);
     assert_eq!(device["pdos"][1]["mapped"][0]["name"], "Statusword");
 }

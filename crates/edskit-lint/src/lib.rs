@@ -7,9 +7,12 @@
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
 mod context;
+mod edits;
 mod finding;
 mod inline_comment;
 mod linter;
+mod listing;
+mod missing;
 mod odd_lines;
 mod rule;
 mod rule_set;
@@ -17,6 +20,7 @@ pub mod rules;
 mod similar;
 #[cfg(test)]
 mod testing;
+mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};

@@ -7,11 +7,18 @@ use std::array;
 
 /// A line that holds something odd.
 #[derive(Clone, Copy)]
-pub(crate) struct OddLine<'a> {
+pub(crate) struct OddLine {
     /// The number of the line, counted from 0.
     pub(crate) number: usize,
-    /// The entry on it, if it is one.
-    pub(crate) entry: Option<Entry<'a>>,
+    /// The position of the entry on it, if it is one.
+    entry: Option<u32>,
+}
+
+impl OddLine {
+    /// The entry on the line, if it is one.
+    pub(crate) fn entry(self, sheet: &Datasheet) -> Option<Entry<'_>> {
+        sheet.entries().nth(self.entry? as usize)
+    }
 }
 
 /// The odd lines in the order of the file. Lines that only might be odd are among them; each rule looks itself.
@@ -22,13 +29,13 @@ pub(crate) struct OddLine<'a> {
 /// - `;` or `[` behind other text,
 /// - a value that begins with `0` and a digit,
 /// - `N` and `D` as they stand in `NODE` and `$NODEID`.
-pub(crate) fn find<'a>(sheet: &'a Datasheet) -> Vec<OddLine<'a>> {
+pub(crate) fn find(sheet: &Datasheet) -> Vec<OddLine> {
     let document = sheet.document();
     let lines = document.lines();
     let end = lines.last().map_or(0, |line| line.full_span().end as usize);
     let bytes = &document.to_bytes()[..end];
     let mut odd = Vec::new();
-    let mut add = |number| odd.push(OddLine { number, entry: sheet.entry_on_line(number) });
+    let mut add = |number| odd.push(OddLine { number, entry: sheet.entry_on_line(number).map(Entry::id) });
     let Some(first) = lines.first() else { return odd };
     add(0);
     // The window looks at the byte before the line, too.
@@ -133,7 +140,8 @@ mod tests {
     #[test]
     fn entries_come_along() {
         let sheet = Datasheet::parse(b"[1000]\nDataType =7\n [1001]\nNode=5\n");
-        let lines: Vec<_> = find(&sheet).iter().map(|line| (line.number, line.entry.is_some())).collect();
+        let lines: Vec<_> =
+            find(&sheet).iter().map(|line| (line.number, line.entry(&sheet).is_some())).collect();
         assert_eq!(lines, [(0, false), (1, true), (2, false), (3, true)]);
     }
 }

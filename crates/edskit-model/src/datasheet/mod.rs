@@ -8,9 +8,12 @@
 mod build;
 mod channels;
 mod compact;
+mod compare;
 mod description;
 mod entry;
+mod identity;
 mod info;
+mod meaning;
 mod modules;
 mod object;
 mod pdo;
@@ -19,18 +22,22 @@ mod topology;
 
 pub use channels::{Channel, ChannelOffset, Tool};
 pub use compact::{DictionaryEntry, ImplicitPdo};
+pub use compare::{Difference, same_meaning};
 pub use description::Description;
 pub use entry::{Entry, Field};
+pub(crate) use identity::Identity;
 pub use info::{Commissioning, DeviceInfo, FileInfo};
+pub(crate) use meaning::lists_indices;
 pub use modules::{Module, ModuleCount, SubExtension};
 pub use object::{Object, SubObject};
 pub use pdo::Pdo;
 pub use section::{ListItem, Section};
 pub use topology::{Topology, TopologyNode};
 
-use crate::key::Key;
+use crate::key::{KEY_NAMES, Key, KeyName};
 use crate::section::SectionKind;
 use crate::{Document, Span};
+use core::ops::RangeInclusive;
 use edskit_types::{Index, SubIndex};
 use std::borrow::Cow;
 
@@ -60,6 +67,8 @@ pub struct Datasheet {
     sub_objects: Vec<SubObjectRecord>,
     /// The first section of every other kind, sorted.
     others: Vec<(SectionKind, u32)>,
+    /// Which keys there are, by [`KeyName`].
+    keys: [bool; KEY_NAMES],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -123,6 +132,12 @@ impl Datasheet {
         (0..self.entries.len() as u32).map(|id| Entry { sheet: self, id })
     }
 
+    /// Whether some entry of the file has the key, in whatever section.
+    #[inline]
+    pub fn has_key(&self, name: KeyName) -> bool {
+        self.keys[name as usize]
+    }
+
     /// The entry on a line of the document, counted from 0.
     pub fn entry_on_line(&self, line: usize) -> Option<Entry<'_>> {
         let position = self.entries.binary_search_by_key(&line, |entry| entry.line as usize).ok()?;
@@ -170,6 +185,16 @@ impl Datasheet {
     #[inline]
     pub fn object(&self, index: Index) -> Option<Object<'_>> {
         self.object_position(index).map(|position| Object::new(self, position as u32))
+    }
+
+    /// The described objects with an index in `indices`, in ascending order.
+    pub fn objects_in(
+        &self,
+        indices: RangeInclusive<Index>,
+    ) -> impl ExactSizeIterator<Item = Object<'_>> + DoubleEndedIterator {
+        let first = self.objects.partition_point(|object| object.index < *indices.start());
+        let end = self.objects.partition_point(|object| object.index <= *indices.end());
+        (first as u32..end as u32).map(|position| Object::new(self, position))
     }
 
     /// All described sub-objects in ascending order, also those whose object is not described.

@@ -75,6 +75,17 @@ fn objects_come_sorted_and_the_first_of_two_counts() {
 }
 
 #[test]
+fn objects_of_a_range_include_both_ends() {
+    let sheet = Datasheet::parse(b"[1400]\n[13FF]\n[1600]\n[15FF]\n[1401]\n");
+    let indices = |first, last| {
+        sheet.objects_in(Index(first)..=Index(last)).map(|object| object.index().0).collect::<Vec<_>>()
+    };
+    assert_eq!(indices(0x1400, 0x15FF), [0x1400, 0x1401, 0x15FF]);
+    assert_eq!(indices(0, 0xFFFF).len(), 5);
+    assert!(indices(0x2000, 0xFFFF).is_empty());
+}
+
+#[test]
 fn a_value_that_means_nothing_keeps_its_text_reason_and_place() {
     let sheet = Datasheet::parse(DEVICE.as_bytes());
     let vendor = sheet.sub_object(Index(0x1018), SubIndex(1)).unwrap();
@@ -92,6 +103,23 @@ fn an_empty_entry_counts_as_none_but_is_there() {
     let count = sheet.sub_object(Index(0x1018), SubIndex(0)).unwrap();
     assert!(count.default_value().is_none());
     assert!(count.entry(KeyName::DefaultValue).unwrap().is_empty());
+}
+
+#[test]
+fn keys_of_the_file_are_known() {
+    let sheet = Datasheet::parse(b"[1000]\nDataType=7\nobjflags=\n[FileInfo]\nAccessType=ro\n");
+    assert!([KeyName::DataType, KeyName::ObjFlags, KeyName::Unknown].iter().all(|&key| sheet.has_key(key)));
+    assert!(!sheet.has_key(KeyName::AccessType), "no key of this section");
+    assert!(!sheet.has_key(KeyName::FileName) && !Datasheet::parse(b"").has_key(KeyName::Unknown));
+}
+
+#[test]
+fn sections_know_the_next_one() {
+    let sheet = Datasheet::parse(b"[1000]\n[2000]\n[1000]\n");
+    let first = sheet.sections().next().unwrap();
+    assert_eq!(first.following().unwrap().name(), "2000");
+    assert_eq!(first.following().and_then(Section::following).unwrap().id(), 2);
+    assert!(sheet.sections().next_back().unwrap().following().is_none());
 }
 
 #[test]

@@ -56,10 +56,9 @@ fn check(context: &Context<'_>, report: &mut Report) {
             other(context, number, line, section, report);
         }
     }
-    for odd in context.odd_lines() {
-        let Some(entry) = odd.entry else { continue };
+    for entry in context.odd_entries() {
         if entry.raw().ends_with(b"]")
-            && let Some(header) = lost_header::on_line(context, odd.number)
+            && let Some(header) = lost_header::on_line(context, entry.line_number())
         {
             lost(context, header, report);
         }
