@@ -8,9 +8,12 @@
 mod build;
 mod channels;
 mod compact;
+mod compare;
 mod description;
 mod entry;
+mod identity;
 mod info;
+mod meaning;
 mod modules;
 mod object;
 mod pdo;
@@ -19,16 +22,19 @@ mod topology;
 
 pub use channels::{Channel, ChannelOffset, Tool};
 pub use compact::{DictionaryEntry, ImplicitPdo};
+pub use compare::{Difference, same_meaning};
 pub use description::Description;
 pub use entry::{Entry, Field};
+pub(crate) use identity::Identity;
 pub use info::{Commissioning, DeviceInfo, FileInfo};
+pub(crate) use meaning::lists_indices;
 pub use modules::{Module, ModuleCount, SubExtension};
 pub use object::{Object, SubObject};
 pub use pdo::Pdo;
 pub use section::{ListItem, Section};
 pub use topology::{Topology, TopologyNode};
 
-use crate::key::Key;
+use crate::key::{KEY_NAMES, Key, KeyName};
 use crate::section::SectionKind;
 use crate::{Document, Span};
 use core::ops::RangeInclusive;
@@ -61,6 +67,8 @@ pub struct Datasheet {
     sub_objects: Vec<SubObjectRecord>,
     /// The first section of every other kind, sorted.
     others: Vec<(SectionKind, u32)>,
+    /// Which keys there are, by [`KeyName`].
+    keys: [bool; KEY_NAMES],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -122,6 +130,24 @@ impl Datasheet {
     /// Every entry of the file in order, with or without a section.
     pub fn entries(&self) -> impl ExactSizeIterator<Item = Entry<'_>> + DoubleEndedIterator {
         (0..self.entries.len() as u32).map(|id| Entry { sheet: self, id })
+    }
+
+    /// Whether some entry of the file has the key, in whatever section.
+    #[inline]
+    pub fn has_key(&self, name: KeyName) -> bool {
+        self.keys[name as usize]
+    }
+
+    /// The entry on a line of the document, counted from 0.
+    pub fn entry_on_line(&self, line: usize) -> Option<Entry<'_>> {
+        let position = self.entries.binary_search_by_key(&line, |entry| entry.line as usize).ok()?;
+        Some(Entry { sheet: self, id: position as u32 })
+    }
+
+    /// Whether some section of CiA 306 stands twice, in whatever spelling.
+    pub fn has_repeated_sections(&self) -> bool {
+        let unknown = self.sections.iter().filter(|section| section.kind == SectionKind::Unknown).count();
+        self.objects.len() + self.sub_objects.len() + self.others.len() + unknown < self.sections.len()
     }
 
     /// Entries before the first section.

@@ -105,6 +105,23 @@ fn an_empty_entry_counts_as_none_but_is_there() {
 }
 
 #[test]
+fn keys_of_the_file_are_known() {
+    let sheet = Datasheet::parse(b"[1000]\nDataType=7\nobjflags=\n[FileInfo]\nAccessType=ro\n");
+    assert!([KeyName::DataType, KeyName::ObjFlags, KeyName::Unknown].iter().all(|&key| sheet.has_key(key)));
+    assert!(!sheet.has_key(KeyName::AccessType), "no key of this section");
+    assert!(!sheet.has_key(KeyName::FileName) && !Datasheet::parse(b"").has_key(KeyName::Unknown));
+}
+
+#[test]
+fn sections_know_the_next_one() {
+    let sheet = Datasheet::parse(b"[1000]\n[2000]\n[1000]\n");
+    let first = sheet.sections().next().unwrap();
+    assert_eq!(first.following().unwrap().name(), "2000");
+    assert_eq!(first.following().and_then(Section::following).unwrap().id(), 2);
+    assert!(sheet.sections().next_back().unwrap().following().is_none());
+}
+
+#[test]
 fn entries_know_their_sections() {
     let sheet = Datasheet::parse(b"a=1\n[FileInfo]\nFileName=x\n[Other]\n[DeviceInfo]\nVendorName=y\n");
     let sections: Vec<_> =
@@ -112,6 +129,34 @@ fn entries_know_their_sections() {
     assert_eq!(sections, [None, Some("FileInfo".into()), Some("DeviceInfo".into())]);
     assert_eq!(sheet.entries_outside_sections().count(), 1);
     assert_eq!(Datasheet::parse(b"a=1").entries_outside_sections().count(), 1);
+}
+
+#[test]
+fn entries_are_found_by_their_line() {
+    let sheet = Datasheet::parse(b"[1000]\n; x\nDataType=7\n\nDefaultValue=1\n");
+    let keys: Vec<_> =
+        (0..6).map(|line| sheet.entry_on_line(line).map(|entry| entry.key_text().into_owned())).collect();
+    assert_eq!(keys, [None, None, Some("DataType".to_owned()), None, Some("DefaultValue".to_owned()), None]);
+}
+
+#[test]
+fn repeated_sections_of_cia_306_are_counted_in_every_spelling() {
+    for (text, repeated) in [
+        ("[1000]\n[1018sub1]\n[Tool1]\n[x]\n[x]\n", false),
+        ("[1000]\n[0x1000]\n", true),
+        ("[1018sub1]\n[1018SUB1]\n", true),
+        ("[DeviceComissioning]\n[DeviceCommissioning]\n", true),
+    ] {
+        assert_eq!(Datasheet::parse(text.as_bytes()).has_repeated_sections(), repeated, "{text}");
+    }
+}
+
+#[test]
+fn only_descriptions_have_attributes() {
+    let sheet = Datasheet::parse(b"[FileInfo]\n[1000]\nDataType=7\n[M1Fixed2000]\nDataType=5\n");
+    let types: Vec<_> =
+        sheet.sections().map(|section| section.description().and_then(Description::standard_type)).collect();
+    assert_eq!(types, [None, Some(DataType::Unsigned32), Some(DataType::Unsigned8)]);
 }
 
 #[test]
