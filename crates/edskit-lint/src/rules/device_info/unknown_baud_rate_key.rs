@@ -53,10 +53,16 @@ pub(super) fn unknown_keys(info: Section<'_>) -> impl Iterator<Item = Entry<'_>>
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let Some(info) = context.sheet.device_info() else { return };
-    for entry in unknown_keys(*info) {
+    let mut keys = unknown_keys(*info).peekable();
+    if keys.peek().is_none() {
+        return;
+    }
+    let known: Vec<Bitrate> =
+        Bitrate::ALL.iter().copied().filter(|&rate| info.supports(rate).is_some()).collect();
+    for entry in keys {
         let key = entry.key_text();
         let finding = report.add(entry.key_span(), format!("CiA 306 knows no bit rate `{key}`"));
-        match meant(&key).filter(|&rate| info.supports(rate).is_none()) {
+        match meant(&key).filter(|rate| !known.contains(rate)) {
             Some(rate) => {
                 let canonical = format!("BaudRate_{}", rate.kbit_per_s());
                 finding.help(format!("write `{canonical}={}`", entry.text())).unsafe_fix(
