@@ -1,6 +1,8 @@
 //! What checks see, and where they report.
 
+use crate::listing::Listing;
 use crate::{FileKind, Finding, Label, Rule};
+use core::cell::OnceCell;
 use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
@@ -12,9 +14,21 @@ pub struct Context<'a> {
     pub kind: FileKind,
     /// The file's own name without folders, where it has one.
     pub file_name: Option<&'a str>,
+    /// The lists of objects, once a rule has asked for them.
+    listing: OnceCell<Listing>,
 }
 
 impl<'a> Context<'a> {
+    /// A file to be linted.
+    pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
+        Self { sheet, kind, file_name, listing: OnceCell::new() }
+    }
+
+    /// The lists of objects, read once for all rules.
+    pub(crate) fn listing(&self) -> &Listing {
+        self.listing.get_or_init(|| Listing::of(self.sheet))
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()

@@ -11,6 +11,8 @@ mod edits;
 mod finding;
 mod inline_comment;
 mod linter;
+mod listing;
+mod missing;
 mod rule;
 mod rule_set;
 pub mod rules;

@@ -1,6 +1,6 @@
 //! One section and its entries.
 
-use super::{Datasheet, Entry, Field, SectionRecord};
+use super::{Datasheet, Description, Entry, Field, SectionRecord};
 use crate::key::KeyName;
 use crate::section::SectionKind;
 use crate::{Line, Span};
@@ -44,12 +44,19 @@ impl<'a> Section<'a> {
         self.record().kind
     }
 
+    /// The attributes, where the section describes an object or a sub-object, of the device or of a module.
+    pub fn description(self) -> Option<Description<'a>> {
+        self.kind().is_description().then_some(Description { section: self })
+    }
+
     /// Its header's line in the document, counted from 0.
+    #[inline]
     pub fn line_number(self) -> usize {
         self.record().line as usize
     }
 
     /// Its header's line in the document.
+    #[inline]
     pub fn line(self) -> &'a Line {
         &self.sheet.document.lines()[self.line_number()]
     }
