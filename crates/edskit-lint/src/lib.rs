@@ -13,6 +13,7 @@ mod inline_comment;
 mod linter;
 mod listing;
 mod missing;
+mod odd_lines;
 mod rule;
 mod rule_set;
 pub mod rules;

@@ -51,6 +51,7 @@ fn sections_and_keys_are_found_in_any_case() {
     assert_eq!(info.pdo_count(PdoDirection::Transmit).unwrap().known(), Some(2));
     assert!(info.pdo_count(PdoDirection::Receive).is_none());
     let list = sheet.section(SectionKind::MandatoryObjects).unwrap();
+    assert_eq!(list.keys().map(|key| key.number).collect::<Vec<_>>(), [0, 1, 2]);
     let items: Vec<_> = list.items().map(|item| (item.number, item.index.known())).collect();
     assert_eq!(items, [(1, Some(0x1000)), (2, Some(0x1018))]);
 }

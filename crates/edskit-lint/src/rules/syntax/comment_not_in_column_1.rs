@@ -41,9 +41,13 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let source = context.source();
-    for line in context.document().lines().iter().filter(|line| line.kind() == LineKind::Comment) {
+    for odd in context.odd_lines() {
+        let line = &context.document().lines()[odd.number];
         let blanks = line.indentation(source);
-        if !blanks.is_empty() && source.get(blanks.end as usize) == Some(&b';') {
+        if line.kind() == LineKind::Comment
+            && !blanks.is_empty()
+            && source.get(blanks.end as usize) == Some(&b';')
+        {
             report
                 .add(blanks, "the comment does not begin in column 1")
                 .help("delete the blanks before `;`")

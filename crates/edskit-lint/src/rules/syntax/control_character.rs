@@ -1,4 +1,3 @@
-use super::scan;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
 use edskit_model::{Document, Line, LineKind, Span};
@@ -55,13 +54,16 @@ pub(super) fn is_nothing_else(line: &[u8]) -> bool {
 fn check(context: &Context<'_>, report: &mut Report) {
     let document = context.document();
     let lines = document.lines();
-    for number in scan::lines(document, |[byte]| is_control(byte)) {
-        let line = &lines[number];
+    for odd in context.odd_lines() {
+        let line = &lines[odd.number];
+        if !document.slice(line.span()).iter().any(|&byte| is_control(byte)) {
+            continue;
+        }
         let runs = runs(document, line);
         let Some(&first) = runs.first() else { continue };
         let byte = document.slice(first)[0];
         let alone = is_nothing_else(document.slice(line.span()));
-        let last = || lines[number + 1..].iter().all(|line| line.kind() == LineKind::Blank);
+        let last = || lines[odd.number + 1..].iter().all(|line| line.kind() == LineKind::Blank);
         if alone && byte == SUBSTITUTE && last() {
             report
                 .add(first, "the end-of-file mark 1Ah (Ctrl-Z) of DOS stands at the end")

@@ -54,7 +54,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
 fn may_repeat(section: Section<'_>) -> bool {
     let mut seen = 0u128;
     let mut last = Key { name: KeyName::Unknown, number: 0 };
-    for key in section.entries().map(Entry::key) {
+    for key in section.keys() {
         if key.number == 0 {
             let bit = 1 << key.name as u8;
             if seen & bit != 0 {

@@ -1,6 +1,6 @@
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
-use edskit_model::LineKind;
+use edskit_model::Entry;
 
 rule! {
     /// Blanks stand before a key
@@ -43,7 +43,7 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let source = context.source();
-    for line in context.document().lines().iter().filter(|line| line.kind() == LineKind::Entry) {
+    for line in context.odd_entries().map(Entry::line) {
         let blanks = line.indentation(source);
         if !blanks.is_empty() {
             report

@@ -1,6 +1,6 @@
 //! Values that depend on the node-ID, or are meant to: `$NODEID+0x180`.
 
-use super::{scan, slips, typed};
+use super::{slips, typed};
 use crate::Context;
 use crate::inline_comment::value_length;
 use crate::similar::nearest;
@@ -17,17 +17,23 @@ pub(super) enum Place {
 
 /// The entries whose value is meant as a formula. Where a comment stands behind the value, SYN012 comes first.
 pub(super) fn entries<'a>(context: &Context<'a>) -> impl Iterator<Item = (Entry<'a>, Place)> {
-    let lower = |byte: u8| byte | 0x20;
-    let pattern = move |[a, b, c, d]: [u8; 4]| {
-        (a == b'$') | ((lower(a) == b'n') & (lower(b) == b'o') & (lower(c) == b'd') & (lower(d) == b'e'))
-    };
-    scan::entries(context, pattern).filter_map(|entry| place(entry).map(|place| (entry, place)))
+    context.odd_entries().filter_map(|entry| place(entry).map(|place| (entry, place)))
+}
+
+/// The formulas that can be understood, however they are written.
+pub(super) fn understood<'a>(context: &Context<'a>) -> impl Iterator<Item = (Entry<'a>, Formula)> {
+    context.odd_entries().filter(|entry| entry.raw().contains(&b'$')).filter_map(|entry| {
+        (place(entry) == Some(Place::Value)).then_some(())?;
+        Some((entry, Formula::parse(entry.raw()).ok()?))
+    })
 }
 
 fn place(entry: Entry<'_>) -> Option<Place> {
     let raw = entry.raw();
     let dollar = raw.contains(&b'$');
-    if value_length(raw).is_some() || is_hexadecimal(raw) {
+    let is_text = matches!(entry.key().name.shape(), Shape::Text(_));
+    let may_be = dollar || raw.iter().any(|byte| byte.eq_ignore_ascii_case(&b'n'));
+    if is_text || !may_be || value_length(raw).is_some() || is_hexadecimal(raw) {
         return None;
     }
     match typed::shape(entry) {

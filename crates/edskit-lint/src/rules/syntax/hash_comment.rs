@@ -41,9 +41,10 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let source = context.source();
-    for line in context.document().lines().iter().filter(|line| line.kind() == LineKind::Comment) {
+    for odd in context.odd_lines() {
+        let line = &context.document().lines()[odd.number];
         let start = line.indentation(source).end;
-        if source.get(start as usize) != Some(&b'#') {
+        if line.kind() != LineKind::Comment || source.get(start as usize) != Some(&b'#') {
             continue;
         }
         // Blanks before the mark go too, since a comment begins in column 1.

@@ -1,4 +1,4 @@
-use super::{scan, typed};
+use super::typed;
 use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
@@ -44,9 +44,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let pattern =
-        |[blank, mark]: [u8; 2]| ((blank == b' ') | (blank == b'\t')) & ((mark == b';') | (mark == b'#'));
-    for entry in scan::entries(context, pattern) {
+    for entry in context.odd_entries() {
         let raw = entry.raw();
         let Some(length) = value_length(raw) else { continue };
         if !is_no_text(entry, &raw[..length]) {

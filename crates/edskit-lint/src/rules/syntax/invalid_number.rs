@@ -50,13 +50,19 @@ fn check(context: &Context<'_>, report: &mut Report) {
             continue;
         }
         for entry in section.entries() {
-            let name = entry.key().name;
-            match typed::shape_in(kind, name) {
-                Shape::Unsigned(bits) if !is_small_number(entry.raw(), bits) => {
-                    unsigned(context, entry, bits, report)
-                }
-                Shape::Value if !is_small_number(entry.raw(), 64) => value(context, section, entry, report),
-                _ => {}
+            let shape = typed::shape_in(kind, entry.key().name);
+            let bits = match shape {
+                Shape::Unsigned(bits) => bits,
+                Shape::Value => 64,
+                _ => continue,
+            };
+            if is_small_number(entry.raw(), bits) {
+                continue;
+            }
+            if shape == Shape::Value {
+                value(context, section, entry, report);
+            } else {
+                unsigned(context, entry, bits, report);
             }
         }
     }
@@ -104,7 +110,7 @@ fn unsigned(context: &Context<'_>, entry: Entry<'_>, bits: u8, report: &mut Repo
 fn value(context: &Context<'_>, section: Section<'_>, entry: Entry<'_>, report: &mut Report) {
     let Err(error) = Number::parse(entry.raw()) else { return };
     let is_integer = || typed::data_type(section).is_some_and(DataType::is_integer);
-    if is_integer() && formulas::meant(entry.raw()).is_none() && !is_owned_elsewhere(context, entry) {
+    if is_integer() && !is_owned_elsewhere(context, entry) && formulas::meant(entry.raw()).is_none() {
         not_a_number(context, entry, error, report);
     }
 }
@@ -128,6 +134,20 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
         _ => value,
     };
     let key = entry.key_text();
+    if entry.key().name == KeyName::DataType
+        && let Some(known) =
+            DataType::ALL.iter().find(|known| known.name().as_bytes().eq_ignore_ascii_case(raw))
+    {
+        let number = format!("0x{:04X}", known.index().0);
+        report
+            .add(
+                value,
+                format!("`{key}={}` is not a number: a data type is given by its index", entry.text()),
+            )
+            .help(format!("write `{key}={number}`"))
+            .unsafe_fix(format!("Write `{number}`"), vec![Edit::replace(value, number)]);
+        return;
+    }
     let finding = report.add(wrong, format!("`{key}={}` is not a number: {error}", entry.text()));
     let Some(slip) = slips::of_number(raw) else {
         finding.help("write a decimal number, or a hexadecimal one such as `0x1A`");
@@ -192,6 +212,16 @@ mod tests {
         ] {
             assert_eq!(value(data_type, fine), [""; 0], "{data_type} {fine}");
         }
+    }
+
+    #[test]
+    fn data_types_may_be_named() {
+        let text = "[1000]\nDataType=Unsigned32\n";
+        assert_eq!(
+            findings(&INVALID_NUMBER, text),
+            ["2:10 error: `DataType=Unsigned32` is not a number: a data type is given by its index"]
+        );
+        assert_eq!(fixed(&INVALID_NUMBER, text), "[1000]\nDataType=0x0007\n");
     }
 
     #[test]

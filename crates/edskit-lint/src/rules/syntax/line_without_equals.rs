@@ -46,29 +46,22 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let source = context.source();
+    let mut sections = context.sheet.sections().peekable();
     let mut section = None;
-    let mut sections = context.sheet.sections();
     for (number, line) in context.document().lines().iter().enumerate() {
-        match line.kind() {
-            LineKind::Section => section = sections.next(),
-            LineKind::Other => other(context, number, line, section, report),
-            LineKind::Entry if ends_in_bracket(line.span().slice(source)) => {
-                if let Some(header) = lost_header::on_line(context, number) {
-                    lost(context, header, report);
-                }
+        if line.kind() == LineKind::Other {
+            while let Some(above) = sections.next_if(|next| next.line_number() < number) {
+                section = Some(above);
             }
-            LineKind::Entry | LineKind::Blank | LineKind::Comment => {}
+            other(context, number, line, section, report);
         }
     }
-}
-
-#[inline]
-fn ends_in_bracket(line: &[u8]) -> bool {
-    match line.last() {
-        Some(b']') => true,
-        Some(b' ' | b'\t') => line.trim_ascii_end().ends_with(b"]"),
-        _ => false,
+    for entry in context.odd_entries() {
+        if entry.raw().ends_with(b"]")
+            && let Some(header) = lost_header::on_line(context, entry.line_number())
+        {
+            lost(context, header, report);
+        }
     }
 }
 

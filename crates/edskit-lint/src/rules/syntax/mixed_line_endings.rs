@@ -1,4 +1,5 @@
 use crate::rule::rule;
+use crate::wording::series;
 use crate::{Context, Edit, Report};
 use edskit_model::{Line, LineEnding};
 
@@ -58,7 +59,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let other = |&(ending, count): &(LineEnding, u32)| {
         (ending != wanted && count > 0).then(|| format!("{count} with {}", ending.name()))
     };
-    let listed = others.iter().filter_map(other).collect::<Vec<_>>().join(" and ");
+    let listed = series(&others.iter().filter_map(other).collect::<Vec<_>>(), "and");
     let total = lf + crlf + cr;
     let message = match document.count_of(wanted) {
         0 => format!("of {total} lines none ends with LF or CR LF, but {listed}"),

@@ -25,7 +25,6 @@ pub(crate) mod not_canopen;
 mod octal_looking_number;
 mod quoted_string;
 mod repeats;
-mod scan;
 mod section_alias;
 mod section_not_in_column_1;
 mod slips;

@@ -1,7 +1,6 @@
-use super::formulas::{self, Place};
+use super::formulas;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
-use edskit_model::Formula;
 
 rule! {
     /// `$NODEID` does not stand first in a formula
@@ -41,8 +40,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for (entry, _) in formulas::entries(context).filter(|(_, place)| *place == Place::Value) {
-        let Ok(formula) = Formula::parse(entry.raw()) else { continue };
+    for (entry, formula) in formulas::understood(context) {
         if formula.style().variable_not_first {
             report
                 .add(entry.value_span(), format!("`$NODEID` does not stand first in `{}`", entry.text()))

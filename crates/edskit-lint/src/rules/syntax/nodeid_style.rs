@@ -1,7 +1,8 @@
-use super::formulas::{self, Place};
+use super::formulas;
 use crate::rule::rule;
+use crate::wording::series;
 use crate::{Context, Edit, Report, Severity};
-use edskit_model::{Formula, Number, Radix};
+use edskit_model::{Number, Radix};
 
 rule! {
     /// A formula is written so that not every reader understands it
@@ -42,8 +43,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for (entry, _) in formulas::entries(context).filter(|(_, place)| *place == Place::Value) {
-        let Ok(formula) = Formula::parse(entry.raw()) else { continue };
+    for (entry, formula) in formulas::understood(context) {
         let style = formula.style();
         // The fix of SYN020 mends the style as well.
         if style.variable_not_first {
@@ -51,19 +51,19 @@ fn check(context: &Context<'_>, report: &mut Report) {
         }
         let mut oddities = Vec::new();
         if style.variable_case {
-            oddities.push("`$NODEID` is not in capitals");
+            oddities.push("`$NODEID` is not in capitals".to_owned());
         }
         if style.blanks {
-            oddities.push("blanks stand around `+`");
+            oddities.push("blanks stand around `+`".to_owned());
         }
         let portable = oddities.is_empty();
         if style.decimal && entry.raw().split(|&byte| byte == b'+').any(is_ambiguous) {
-            oddities.push("the offset is decimal");
+            oddities.push("the offset is decimal".to_owned());
         }
         if oddities.is_empty() {
             continue;
         }
-        let message = format!("in the formula `{}` {}", entry.text(), oddities.join(", and "));
+        let message = format!("the formula `{}` is not portable: {}", entry.text(), series(&oddities, "and"));
         let finding = report.add(entry.value_span(), message);
         if portable {
             finding.severity(Severity::Info);
@@ -92,9 +92,9 @@ mod tests {
         assert_eq!(
             findings(&NODEID_STYLE, text),
             [
-                "3:14 warning: in the formula `$nodeid+128` `$NODEID` is not in capitals, and the offset is decimal",
-                "4:10 warning: in the formula `$NODEID +0x1` blanks stand around `+`",
-                "5:11 info: in the formula `$NODEID+384` the offset is decimal",
+                "3:14 warning: the formula `$nodeid+128` is not portable: `$NODEID` is not in capitals and the offset is decimal",
+                "4:10 warning: the formula `$NODEID +0x1` is not portable: blanks stand around `+`",
+                "5:11 info: the formula `$NODEID+384` is not portable: the offset is decimal",
             ]
         );
         assert_eq!(

@@ -1,4 +1,3 @@
-use super::scan;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
 use edskit_model::{Encoding, Line, Span};
@@ -78,7 +77,11 @@ const REPLACEMENTS: &[(char, &str)] = &[
     ('³', "^3"),
     ('µ', "u"),
     ('μ', "u"),
+    ('α', "alpha"),
+    ('β', "beta"),
+    ('Δ', "Delta"),
     ('Ω', "Ohm"),
+    ('€', "EUR"),
     ('·', "*"),
     ('×', "x"),
     ('–', "-"),
@@ -97,10 +100,10 @@ fn check(context: &Context<'_>, report: &mut Report) {
     if encoding == Encoding::Ascii {
         return;
     }
-    let mut lines = scan::lines(document, |[byte]| byte >= 0x80).map(|number| &document.lines()[number]);
-    let (Some(line), others) = (lines.find(|line| character(context, line).is_some()), lines) else { return };
+    let mut lines = document.lines().iter().filter(|line| !document.slice(line.span()).is_ascii());
+    let Some(line) = lines.next() else { return };
     let Some((span, first)) = character(context, line) else { return };
-    let others: Vec<&Line> = others.collect();
+    let others: Vec<&Line> = lines.collect();
     let read = match encoding {
         Encoding::Windows1252 => format!(
             "the byte {:02X}h, `{first}` (U+{:04X}) in {}",

@@ -1,4 +1,4 @@
-use super::{scan, typed};
+use super::typed;
 use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Report};
@@ -41,16 +41,11 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let pattern = |[before, zero, digit]: [u8; 3]| {
-        ((before == b'=') | (before == b' ') | (before == b'\t'))
-            & (zero == b'0')
-            & (digit.wrapping_sub(b'0') < 10)
-    };
-    for entry in scan::entries(context, pattern) {
-        if !is_number(entry) {
+    for entry in context.odd_entries() {
+        let raw = entry.raw();
+        if !matches!(raw, [b'0', b'0'..=b'9', ..]) || !is_number(entry) {
             continue;
         }
-        let raw = entry.raw();
         let length = value_length(raw).unwrap_or(raw.len());
         let Ok(number) = Number::parse(&raw[..length]) else { continue };
         if number.radix() == Radix::Octal && number.value() > 7 {

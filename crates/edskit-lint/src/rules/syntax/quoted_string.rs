@@ -1,4 +1,4 @@
-use super::{scan, typed};
+use super::typed;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
 use edskit_model::{Entry, KeyName, Shape};
@@ -41,7 +41,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for entry in scan::entries(context, |[byte]| byte == b'"') {
+    for entry in context.odd_entries() {
         let [b'"', inner @ .., b'"'] = entry.raw() else { continue };
         if inner.contains(&b'"') || !is_text(entry) {
             continue;

@@ -1,6 +1,6 @@
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
-use edskit_model::{LineKind, Span};
+use edskit_model::{Entry, Span};
 
 rule! {
     /// Blanks stand between a key and its `=`
@@ -39,7 +39,7 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let source = context.source();
-    for line in context.document().lines().iter().filter(|line| line.kind() == LineKind::Entry) {
+    for line in context.odd_entries().map(Entry::line) {
         let equals = line.equals().start;
         if !matches!(source.get(equals.wrapping_sub(1) as usize), Some(b' ' | b'\t')) {
             continue;

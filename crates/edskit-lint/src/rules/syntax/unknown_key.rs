@@ -49,7 +49,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let mut listed: Vec<(Section<'_>, Entry<'_>, usize)> = Vec::new();
     for section in context.sheet.sections() {
         let group = KeyGroup::of(section.kind());
-        if group == KeyGroup::Unknown {
+        if group == KeyGroup::Unknown || (group != KeyGroup::DeviceInfo && !has_unknown_keys(section)) {
             continue;
         }
         for entry in section.entries() {
@@ -78,6 +78,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for (section, entry, count) in listed {
         unknown(section, entry, count, report);
     }
+}
+
+#[inline]
+fn has_unknown_keys(section: Section<'_>) -> bool {
+    section.keys().any(|key| key.name == KeyName::Unknown)
 }
 
 /// Keys of `[DeviceInfo]` that CiA 306 keeps for files of older editions.
@@ -113,11 +118,13 @@ fn suggestion(section: Section<'_>, text: &str) -> Option<String> {
     if is_comment(text) {
         return None;
     }
-    let digits = text.trim_start_matches(|c: char| !c.is_ascii_digit());
-    let number = digits.chars().take_while(char::is_ascii_digit).collect::<String>().parse().unwrap_or(0);
+    let tail = text.trim_start_matches(|c: char| !c.is_ascii_digit());
+    let number = tail.chars().take_while(char::is_ascii_digit).collect::<String>().parse().unwrap_or(0);
     let keys = KeyGroup::of(section.kind()).keys().iter().filter(|name| **name != KeyName::Item);
     let spelt: Vec<String> = keys.filter_map(|&name| Key { name, number }.canonical()).collect();
-    let known = nearest(text, spelt.iter().map(String::as_str))?;
+    let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
+    let known =
+        nearest(text, spelt.iter().map(String::as_str)).filter(|known| digits(known) == digits(text))?;
     let key = Key::of(KeyGroup::of(section.kind()), known.as_bytes());
     section.entries().all(|entry| entry.key() != key).then(|| known.to_owned())
 }
@@ -178,7 +185,9 @@ fn place(text: &[u8]) -> Option<&'static str> {
         (KeyGroup::ObjectList, "a list of objects"),
         (KeyGroup::DummyUsage, "`[DummyUsage]`"),
     ];
-    let has = |group: KeyGroup| !matches!(Key::of(group, text).name, KeyName::Unknown | KeyName::Item);
+    // A description is an extension that suggests itself.
+    let is_common = |name: KeyName| matches!(name, KeyName::Unknown | KeyName::Item | KeyName::Description);
+    let has = |group: KeyGroup| !is_common(Key::of(group, text).name);
     places.iter().find(|(group, _)| has(*group)).map(|(_, place)| *place)
 }
 
@@ -217,7 +226,13 @@ mod tests {
             let text = |key: &str| format!("[{section}]\n{key}=1\n");
             assert_eq!(fixed(&UNKNOWN_KEY, &text(wrong)), text(right));
         }
-        for (section, other) in [("1000", "Unit"), ("MandatoryObjects", "1x"), ("FileInfo", "//FileName")] {
+        for (section, other) in [
+            ("1000", "Unit"),
+            ("1000", "Sub1DefaultValue"),
+            ("1000", "Description"),
+            ("MandatoryObjects", "1x"),
+            ("FileInfo", "//FileName"),
+        ] {
             let text = format!("[{section}]\n{other}=1\n");
             assert_eq!(fixed(&UNKNOWN_KEY, &text), text);
         }

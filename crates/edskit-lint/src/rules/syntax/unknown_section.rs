@@ -120,9 +120,6 @@ fn suggestion(context: &Context<'_>, name: &str) -> Option<String> {
     if dense.len() < name.len() && !matches!(kind, SectionKind::Object(_)) && kind != SectionKind::Unknown {
         return kind.canonical_name();
     }
-    if let Some(known) = nearest(name, SectionKind::fixed_names()) {
-        return Some(known.to_owned());
-    }
     if let Some((index, rest)) = split_object(name) {
         if let Some(suffix) = nearest(rest, ["ObjectLinks", "Name", "Value", "Denotation"]) {
             return Some(format!("{index}{suffix}"));
@@ -131,6 +128,9 @@ fn suggestion(context: &Context<'_>, name: &str) -> Option<String> {
         let is_sub_index =
             (1..=2).contains(&digits.len()) && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
         return (is_sub_index && nearest(word, ["sub"]).is_some()).then(|| format!("{index}sub{digits}"));
+    }
+    if let Some(known) = nearest(name, SectionKind::fixed_names()) {
+        return Some(known.to_owned());
     }
     if let Some(rest) = name.strip_prefix(['M', 'm']) {
         let (module, word) = rest.split_at(rest.find(|c: char| !c.is_ascii_digit())?);
