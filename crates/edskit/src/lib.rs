@@ -9,6 +9,7 @@ mod fmt;
 mod generated;
 mod lint;
 mod positions;
+mod printable;
 mod show;
 mod streams;
 
