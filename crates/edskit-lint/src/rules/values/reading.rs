@@ -164,9 +164,14 @@ pub(super) fn is_compact(variable: &Variable<'_>) -> bool {
         && variable.description.compact_sub_obj().and_then(Field::known).is_some_and(|count| count > 0)
 }
 
-/// Whether other rules own what is wrong with the text: it holds a `$` or an inline comment.
+/// Whether other rules own what is wrong with the text: a formula or an inline comment.
 pub(super) fn is_owned_elsewhere(raw: &[u8]) -> bool {
-    raw.contains(&b'$') || inline_comment::value_length(raw).is_some()
+    is_formula(raw) || inline_comment::value_length(raw).is_some()
+}
+
+/// Whether a text that is no integer speaks of the node-ID. `$` alone may begin a hexadecimal number.
+pub(super) fn is_formula(raw: &[u8]) -> bool {
+    raw.contains(&b'$') && raw.windows(5).any(|word| word.eq_ignore_ascii_case(b"$NODE"))
 }
 
 /// How messages call an entry.
