@@ -25,10 +25,10 @@ impl OddLine {
 ///
 /// Odd is a line with
 /// - a blank at its start, before `=` or behind it; every first line counts as such,
-/// - a control character, tabs among them, or `$`, `"`, `#`,
-/// - `;` or `[` behind other text,
+/// - a control character, tabs among them, or `!`, `"`, `#`, `$`, `+`,
+/// - a blank and `;`,
 /// - a value that begins with `0` and a digit,
-/// - `N` and `D` as they stand in `NODE` and `$NODEID`.
+/// - `[` directly behind a letter or digit.
 pub(crate) fn find(sheet: &Datasheet) -> Vec<OddLine> {
     let document = sheet.document();
     let lines = document.lines();
@@ -70,17 +70,16 @@ fn next(bytes: &[u8], from: usize) -> Option<usize> {
 /// Whether a byte is odd between its neighbours. Free of branches, so that many are tried at once.
 #[inline]
 fn is_odd([before, byte, after]: [u8; 3]) -> bool {
-    let begins = before < 0x0E;
+    let blank = byte == b' ';
     let value_begins = before == b'=';
-    let control = (byte < 0x20) & (byte != b'\n') & (byte != b'\r');
-    let quote_hash_dollar = byte.wrapping_sub(b'"') < 3;
+    let low = (byte <= b'$') & !blank & (byte != b'\n') & (byte != b'\r');
     let digit = after.wrapping_sub(b'0') < 10;
-    (control | quote_hash_dollar | (byte == 0x7F))
-        | (!begins & ((byte == b';') | (byte == b'[')))
-        | ((byte == b' ') & (begins | value_begins))
-        | ((byte == b'=') & (before == b' '))
+    low | (byte == b'+')
+        | (byte == 0x7F)
+        | (blank & ((before < 0x0E) | value_begins))
+        | ((before == b' ') & ((byte == b';') | (byte == b'=')))
         | (value_begins & (byte == b'0') & digit)
-        | ((before | 0x20 == b'n') & (after | 0x20 == b'd'))
+        | ((byte == b'[') & (before > b'/') & !value_begins)
 }
 
 #[cfg(test)]
@@ -107,8 +106,7 @@ mod tests {
             "a=1[1000]",
             "a=00",
             "a= 07",
-            "a=NODEID",
-            "node_id",
+            "a=NODEID+1",
             "\u{7F}",
             "a=5\u{1A}",
         ] {
@@ -139,7 +137,7 @@ mod tests {
 
     #[test]
     fn entries_come_along() {
-        let sheet = Datasheet::parse(b"[1000]\nDataType =7\n [1001]\nNode=5\n");
+        let sheet = Datasheet::parse(b"[1000]\nDataType =7\n [1001]\na=$\n");
         let lines: Vec<_> =
             find(&sheet).iter().map(|line| (line.number, line.entry(&sheet).is_some())).collect();
         assert_eq!(lines, [(0, false), (1, true), (2, false), (3, true)]);

@@ -49,21 +49,18 @@ fn check(context: &Context<'_>, report: &mut Report) {
     }
 }
 
-/// Whether a key may stand twice: a glance that needs no table. Keys without a number are bits of a mask, numbered ones
-/// are fine as long as they ascend.
+/// Whether a key may stand twice: a glance that needs no table. A key without a number is looked up by its name;
+/// numbered keys are fine as long as they ascend.
 fn may_repeat(section: Section<'_>) -> bool {
-    let mut seen = 0u128;
-    let mut last = Key { name: KeyName::Unknown, number: 0 };
+    let mut seen = [false; 128];
+    let mut last = Key::fixed(KeyName::Unknown);
     for key in section.keys() {
-        if key.number == 0 {
-            let bit = 1 << key.name as u8;
-            if seen & bit != 0 {
-                return true;
-            }
-            seen |= bit;
-        } else if key > last {
-            last = key;
+        let again = if key.number == 0 {
+            std::mem::replace(&mut seen[key.name as usize % 128], true)
         } else {
+            std::mem::replace(&mut last, key) >= key
+        };
+        if again {
             return true;
         }
     }

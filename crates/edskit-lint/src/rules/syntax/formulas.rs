@@ -15,7 +15,8 @@ pub(super) enum Place {
     Number,
 }
 
-/// The entries whose value is meant as a formula. Where a comment stands behind the value, SYN012 comes first.
+/// The entries whose value is meant as a formula: it holds `$`, or it is a sum with the node-ID. Where a comment stands
+/// behind the value, SYN012 comes first.
 pub(super) fn entries<'a>(context: &Context<'a>) -> impl Iterator<Item = (Entry<'a>, Place)> {
     context.odd_entries().filter_map(|entry| place(entry).map(|place| (entry, place)))
 }
@@ -31,9 +32,9 @@ pub(super) fn understood<'a>(context: &Context<'a>) -> impl Iterator<Item = (Ent
 fn place(entry: Entry<'_>) -> Option<Place> {
     let raw = entry.raw();
     let dollar = raw.contains(&b'$');
+    let is_sum = raw.contains(&b'+');
     let is_text = matches!(entry.key().name.shape(), Shape::Text(_));
-    let may_be = dollar || raw.iter().any(|byte| byte.eq_ignore_ascii_case(&b'n'));
-    if is_text || !may_be || value_length(raw).is_some() || is_hexadecimal(raw) {
+    if is_text || !(dollar || is_sum) || value_length(raw).is_some() || is_hexadecimal(raw) {
         return None;
     }
     match typed::shape(entry) {
@@ -131,7 +132,7 @@ mod tests {
     fn places_depend_on_key_and_type() {
         let text = "[1400sub1]\nDataType=0x7\nDefaultValue=$NODEID+0x200\nHighLimit=node\n\
                     [1008]\nParameterName=Node $NODEID\nDataType=0x9\nDefaultValue=$NODEID\n\
-                    [2000]\nDefaultValue=$5\nLowLimit=$NodeID ; x\nHighLimit=NODEID\nSubNumber=$NODEID\n\
+                    [2000]\nDefaultValue=$5\nLowLimit=$NodeID ; x\nHighLimit=NODEID+1\nSubNumber=$NODEID\n\
                     [x]\na=$NODEID\n[DeviceComissioning]\nNodeID=5\nNodeName=$NODEID";
         let sheet = Datasheet::parse(text.as_bytes());
         let context = Context::new(&sheet, FileKind::Eds, None);

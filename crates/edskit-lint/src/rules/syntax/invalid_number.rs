@@ -110,7 +110,8 @@ fn unsigned(context: &Context<'_>, entry: Entry<'_>, bits: u8, report: &mut Repo
 fn value(context: &Context<'_>, section: Section<'_>, entry: Entry<'_>, report: &mut Report) {
     let Err(error) = Number::parse(entry.raw()) else { return };
     let is_integer = || typed::data_type(section).is_some_and(DataType::is_integer);
-    if is_integer() && !is_owned_elsewhere(context, entry) && formulas::meant(entry.raw()).is_none() {
+    let is_sum = || entry.raw().contains(&b'+') && formulas::meant(entry.raw()).is_some();
+    if is_integer() && !is_owned_elsewhere(context, entry) && !is_sum() {
         not_a_number(context, entry, error, report);
     }
 }
@@ -149,6 +150,12 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
         return;
     }
     let finding = report.add(wrong, format!("`{key}={}` is not a number: {error}", entry.text()));
+    if let Some(formula) = formulas::meant(raw) {
+        finding
+            .help(format!("write `{key}={formula}` if the node-ID is meant"))
+            .unsafe_fix(format!("Write `{formula}`"), vec![Edit::replace(value, formula.to_string())]);
+        return;
+    }
     let Some(slip) = slips::of_number(raw) else {
         finding.help("write a decimal number, or a hexadecimal one such as `0x1A`");
         return;
@@ -212,6 +219,16 @@ mod tests {
         ] {
             assert_eq!(value(data_type, fine), [""; 0], "{data_type} {fine}");
         }
+    }
+
+    #[test]
+    fn the_node_id_needs_its_dollar() {
+        let text = "[1800sub1]\nDataType=7\nDefaultValue=NodeID\n";
+        assert_eq!(
+            findings(&INVALID_NUMBER, text),
+            ["3:14 error: `DefaultValue=NodeID` is not a number: `N` is not a digit"]
+        );
+        assert_eq!(fixed(&INVALID_NUMBER, text), "[1800sub1]\nDataType=7\nDefaultValue=$NODEID\n");
     }
 
     #[test]

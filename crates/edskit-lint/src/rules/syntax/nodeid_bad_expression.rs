@@ -107,7 +107,7 @@ mod tests {
             ("$NODEID-1", "3:21 error: `$NODEID-1` is not a formula: only `+` may follow $NODEID"),
             ("$NODEID+$NODEID", "3:22 error: `$NODEID+$NODEID` is not a formula: $NODEID stands twice"),
             ("$MASTER+1", "3:14 error: `$MASTER+1` is not a formula: the only variable is $NODEID"),
-            ("NODEID", "3:14 error: `NODEID` is not a formula: the node-ID is written `$NODEID`"),
+            ("NODEID+1", "3:14 error: `NODEID+1` is not a formula: the node-ID is written `$NODEID`"),
             ("$NODEID+", "3:14 error: `$NODEID+` is not a formula: a term is missing beside `+`"),
         ] {
             assert_eq!(findings(&NODEID_BAD_EXPRESSION, &value(text)), [message]);
@@ -122,7 +122,7 @@ mod tests {
     fn slips_are_mended() {
         for (wrong, right) in [
             ("NODEID+0x180", "$NODEID+0x180"),
-            ("{NodeID}", "$NODEID"),
+            ("{NodeID}+0x5", "$NODEID+0x5"),
             ("$NODEID 0x180", "$NODEID+0x180"),
             ("$NODEID0x180", "$NODEID+0x180"),
             ("$NODEID+180h", "$NODEID+0x180"),

@@ -45,11 +45,15 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
+    let is_listed = |name: KeyName| name == KeyName::Unknown || is_reserved(name);
+    if !context.sheet.entries().any(|entry| is_listed(entry.key().name)) {
+        return;
+    }
     let mut groups: HashMap<(KeyGroup, String), usize> = HashMap::new();
     let mut listed: Vec<(Section<'_>, Entry<'_>, usize)> = Vec::new();
     for section in context.sheet.sections() {
         let group = KeyGroup::of(section.kind());
-        if group == KeyGroup::Unknown || (group != KeyGroup::DeviceInfo && !has_unknown_keys(section)) {
+        if group == KeyGroup::Unknown {
             continue;
         }
         for entry in section.entries() {
@@ -78,11 +82,6 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for (section, entry, count) in listed {
         unknown(section, entry, count, report);
     }
-}
-
-#[inline]
-fn has_unknown_keys(section: Section<'_>) -> bool {
-    section.keys().any(|key| key.name == KeyName::Unknown)
 }
 
 /// Keys of `[DeviceInfo]` that CiA 306 keeps for files of older editions.
