@@ -48,7 +48,11 @@ rule! {
 const EXTENSIONS: [(&str, &str); 2] =
     [("TypeDefinitions", "CANopenEditor"), ("StandardDataTypes", "CANFestival")];
 
+/// How many names are compared with the known ones. A file with more unknown ones is not full of slips.
+const MOST_COMPARED: usize = 1_000;
+
 fn check(context: &Context<'_>, report: &mut Report) {
+    let mut compared = 0;
     let mut groups: HashMap<String, usize> = HashMap::new();
     let mut listed: Vec<(Section<'_>, usize)> = Vec::new();
     for section in context.sheet.sections().filter(|section| section.kind() == SectionKind::Unknown) {
@@ -57,7 +61,10 @@ fn check(context: &Context<'_>, report: &mut Report) {
         if name.is_empty() || section.line().closing_bracket().is_none() {
             continue;
         }
-        if let Some(known) = suggestion(context, &name) {
+        compared += 1;
+        if compared <= MOST_COMPARED
+            && let Some(known) = suggestion(context, &name)
+        {
             misspelt(context, section, &known, report);
             continue;
         }
