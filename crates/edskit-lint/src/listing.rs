@@ -24,13 +24,18 @@ impl List {
         }
     }
 
-    /// The list's section.
-    pub(crate) fn section(self, sheet: &Datasheet) -> Option<Section<'_>> {
-        sheet.section(match self {
+    /// What the list's section is.
+    pub(crate) const fn kind(self) -> SectionKind {
+        match self {
             Self::Mandatory => SectionKind::MandatoryObjects,
             Self::Optional => SectionKind::OptionalObjects,
             Self::Manufacturer => SectionKind::ManufacturerObjects,
-        })
+        }
+    }
+
+    /// The list's section.
+    pub(crate) fn section(self, sheet: &Datasheet) -> Option<Section<'_>> {
+        sheet.section(self.kind())
     }
 
     /// The list that an object belongs into; `None` for data types and reserved indices.

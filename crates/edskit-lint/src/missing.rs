@@ -2,7 +2,7 @@
 
 use crate::wording::series;
 use crate::{Context, Edit, Finding, Report};
-use edskit_model::{Entry, KeyName, LineKind, Section};
+use edskit_model::{Entry, KeyName, Section};
 
 /// What a section lacks of a set of keys.
 pub(crate) struct Missing<'a> {
@@ -97,24 +97,4 @@ impl<'a> Missing<'a> {
         }
         edits
     }
-}
-
-/// Reports the header of a missing section in the middle of a line, if there is one.
-pub(crate) fn lost_header(context: &Context<'_>, header: &str, report: &mut Report) -> bool {
-    let source = context.source();
-    let lines = context.document().lines().iter();
-    let place =
-        lines.filter(|line| matches!(line.kind(), LineKind::Entry | LineKind::Other)).find_map(|line| {
-            let text = line.span().slice(source);
-            let start = text.iter().position(|&byte| byte == b'[')?;
-            let found = text.get(start..start + header.len())?;
-            found.eq_ignore_ascii_case(header.as_bytes()).then(|| line.span().sub(start, header.len()))
-        });
-    let Some(place) = place else { return false };
-    let ending = context.document().line_ending().as_str();
-    report
-        .add(place, format!("the header `{header}` does not begin its line, so the section is missing"))
-        .help(format!("begin a new line before `{header}`"))
-        .unsafe_fix("Begin a new line", vec![Edit::insert(place.start, ending)]);
-    true
 }

@@ -103,7 +103,7 @@ fn compare_entries<'a>(
     let right_type = right_section.and_then(Section::value_type);
     for (left, right) in pairs {
         let key = left.key().name;
-        let shape = left_section.map_or(Shape::Text(0), |section| section.shape(key));
+        let shape = left_section.map_or(Shape::Text(0), |section| section.kind().shape_of(key));
         if Meaning::of(left.raw(), shape, left_type) != Meaning::of(right.raw(), shape, right_type) {
             return Err(Difference::Value {
                 section: name.to_owned(),

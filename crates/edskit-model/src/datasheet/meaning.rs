@@ -2,23 +2,35 @@
 
 use super::{Description, Section};
 use crate::key::{KeyName, Shape};
-use crate::section::SectionKind;
+use crate::section::{ModuleSection, SectionKind};
 use crate::value::{Number, Value};
-use edskit_types::{AccessType, DataType, Index};
+use edskit_types::{AccessType, DataType};
 
-impl Section<'_> {
-    /// What the values of a key are in this section: items of lists differ from list to list.
-    pub fn shape(self, name: KeyName) -> Shape {
-        match (name, self.kind()) {
-            (KeyName::Item, SectionKind::CompactNames(_) | SectionKind::CompactDenotations(_)) => {
-                Shape::Text(0)
-            }
-            (KeyName::Item, SectionKind::CompactValues(_)) => Shape::Value,
+impl SectionKind {
+    /// What the values of a key are in a section of this kind: items of lists are indices and numbers, names, or
+    /// values.
+    #[inline]
+    pub fn shape_of(self, name: KeyName) -> Shape {
+        match (name, self) {
+            (KeyName::Item, Self::CompactNames(_) | Self::CompactDenotations(_)) => Shape::Text(0),
+            (KeyName::Item, Self::CompactValues(_)) => Shape::Value,
             (KeyName::Item, _) => Shape::Unsigned(16),
             _ => name.shape(),
         }
     }
 
+    /// Whether the items of the list are indices of objects.
+    pub(crate) fn lists_indices(self) -> bool {
+        self.is_object_list()
+            || matches!(
+                self,
+                Self::ObjectLinks(_)
+                    | Self::Module(_, ModuleSection::FixedObjects | ModuleSection::SubExtends)
+            )
+    }
+}
+
+impl Section<'_> {
     /// The data type of the values in this section: its own, or in `[xxxxValue]` the object's. `None` where there is
     /// none or it is not one of CiA 301.
     pub fn value_type(self) -> Option<DataType> {
@@ -81,17 +93,6 @@ impl<'a> Meaning<'a> {
     }
 }
 
-/// Whether the items of a list are indices of objects.
-pub(crate) fn lists_indices(kind: SectionKind) -> bool {
-    use crate::section::ModuleSection;
-    kind.is_object_list()
-        || matches!(
-            kind,
-            SectionKind::ObjectLinks(Index(_))
-                | SectionKind::Module(_, ModuleSection::FixedObjects | ModuleSection::SubExtends)
-        )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,7 +107,7 @@ mod tests {
         let sheet =
             Datasheet::parse(b"[2000]\nDataType=3\n[2000Value]\n1=0\n[2000Name]\n1=a\n[OptionalObjects]\n");
         let sections: Vec<_> = sheet.sections().collect();
-        let shapes: Vec<_> = sections.iter().map(|section| section.shape(KeyName::Item)).collect();
+        let shapes: Vec<_> = sections.iter().map(|section| section.kind().shape_of(KeyName::Item)).collect();
         assert_eq!(shapes[1..], [Shape::Value, Shape::Text(0), Shape::Unsigned(16)]);
         let types: Vec<_> = sections.iter().map(|section| section.value_type()).collect();
         assert_eq!(types, [Some(DataType::Integer16), Some(DataType::Integer16), None, None]);

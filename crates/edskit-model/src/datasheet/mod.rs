@@ -27,7 +27,6 @@ pub use description::Description;
 pub use entry::{Entry, Field};
 pub(crate) use identity::Identity;
 pub use info::{Commissioning, DeviceInfo, FileInfo};
-pub(crate) use meaning::lists_indices;
 pub use modules::{Module, ModuleCount, SubExtension};
 pub use object::{Object, SubObject};
 pub use pdo::Pdo;

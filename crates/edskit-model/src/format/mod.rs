@@ -163,7 +163,7 @@ impl<'a> Writer<'a> {
                 None => self.text.extend_from_slice(entry.key_span().slice(self.source)),
             }
             self.text.push(b'=');
-            self.text.extend_from_slice(&value::canonical(section, key.name, data_type, entry.raw()));
+            self.text.extend_from_slice(&value::canonical(section.kind(), key.name, data_type, entry.raw()));
             self.end_line();
         }
     }

@@ -1,6 +1,5 @@
 //! The canonical spelling of values.
 
-use crate::datasheet::{Section, lists_indices};
 use crate::key::{KeyName, Shape};
 use crate::section::SectionKind;
 use crate::value::{Number, Value};
@@ -20,18 +19,18 @@ enum Width {
 /// A value as it should be written. Its bytes change only where that cannot change what it says: hexadecimal numbers
 /// get the usual case and width, formulas their order, access types lower case.
 pub(super) fn canonical<'a>(
-    section: Section<'_>,
+    section: SectionKind,
     name: KeyName,
     data_type: Option<DataType>,
     raw: &'a [u8],
 ) -> Cow<'a, [u8]> {
-    match section.shape(name) {
+    match section.shape_of(name) {
         Shape::Access => match AccessType::parse(raw) {
             Some(access) => Cow::Owned(access.as_str().into()),
             None => Cow::Borrowed(raw),
         },
         Shape::Unsigned(_) | Shape::Flag | Shape::ObjectCode => {
-            number(raw, Width::AtLeast(digits(section.kind(), name)))
+            number(raw, Width::AtLeast(digits(section, name)))
         }
         Shape::Value => data_type.map_or(Cow::Borrowed(raw), |data_type| typed(raw, data_type)),
         Shape::Text(_) | Shape::Edition | Shape::Time | Shape::Date | Shape::Special => Cow::Borrowed(raw),
@@ -46,7 +45,7 @@ fn digits(kind: SectionKind, name: KeyName) -> usize {
         | KeyName::RevisionNumber
         | KeyName::LssSerialNumber => 8,
         KeyName::DataType | KeyName::Type => 4,
-        KeyName::Item if lists_indices(kind) => 4,
+        KeyName::Item if kind.lists_indices() => 4,
         KeyName::NodeId
         | KeyName::Nodes
         | KeyName::NodePresent

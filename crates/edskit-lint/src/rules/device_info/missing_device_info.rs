@@ -1,12 +1,14 @@
-use crate::missing::lost_header;
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
+use edskit_model::SectionKind;
 
 rule! {
     /// The file has no section `[DeviceInfo]`
     ///
     /// ## What it does
-    /// Reports a file without `[DeviceInfo]`. If the header hides in the middle of another line, that line is shown.
+    /// Reports a file without `[DeviceInfo]`. One whose header stands behind other text,
+    /// because a line break was lost, is the matter of SYN008.
     ///
     /// ## Why is this bad
     /// The section is mandatory. Without it no tool knows who made the device, which bit rates it has, and how many
@@ -43,7 +45,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    if context.sheet.device_info().is_some() || lost_header(context, "[DeviceInfo]", report) {
+    if context.sheet.device_info().is_some() || lost_header::hides(context, SectionKind::DeviceInfo) {
         return;
     }
     report
@@ -59,9 +61,10 @@ mod tests {
     #[test]
     fn the_section_may_stand_anywhere() {
         assert!(findings(&MISSING_DEVICE_INFO, "[1000]\n[DEVICEINFO]\n").is_empty());
+        assert!(findings(&MISSING_DEVICE_INFO, "[FileInfo]\nFileVersion=1[DeviceInfo]\n").is_empty());
         assert_eq!(
-            findings(&MISSING_DEVICE_INFO, "[FileInfo]\nModifiedBy=me[DeviceInfo]\n"),
-            ["2:14 error: the header `[DeviceInfo]` does not begin its line, so the section is missing"]
+            findings(&MISSING_DEVICE_INFO, "; [DeviceInfo]\n[1000]\n"),
+            ["1:1 error: the file has no section `[DeviceInfo]`"]
         );
     }
 }

@@ -7,12 +7,12 @@ rule! {
     /// A bit rate that CiA 306 does not know
     ///
     /// ## What it does
-    /// Reports an entry of `[DeviceInfo]` whose key begins with `BaudRate` but is none of the eight that CiA 306
+    /// Reports an entry of `[DeviceInfo]` whose key begins with `BaudRate_` but is none of the eight that CiA 306
     /// defines: 10, 20, 50, 125, 250, 500, 800 and 1000 kbit/s.
     ///
     /// ## Why is this bad
     /// Other keys are allowed as extensions, so nothing breaks, but no other tool reads them. A slip such as
-    /// `BaudRate1000` hides a bit rate that the device has.
+    /// `BaudRate_500k` hides a bit rate that the device has.
     ///
     /// ## Example
     /// ```eds
@@ -42,7 +42,7 @@ rule! {
 
 const PREFIX: &[u8] = b"BaudRate";
 
-/// The entries that begin like a bit rate and are none of CiA 306.
+/// The entries that begin like a bit rate and are none of CiA 306, slips such as `BaudRate500` included.
 pub(super) fn unknown_keys(info: Section<'_>) -> impl Iterator<Item = Entry<'_>> {
     let source = info.sheet().document().to_bytes();
     info.all_numbered(KeyName::Unknown).filter(move |entry| {
@@ -53,10 +53,19 @@ pub(super) fn unknown_keys(info: Section<'_>) -> impl Iterator<Item = Entry<'_>>
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let Some(info) = context.sheet.device_info() else { return };
-    for entry in unknown_keys(*info) {
+    let source = context.source();
+    // Without the `_` it is a slip like any other, the matter of SYN024.
+    let is_rate = |entry: &Entry<'_>| entry.key_span().slice(source).get(PREFIX.len()) == Some(&b'_');
+    let mut keys = unknown_keys(*info).filter(is_rate).peekable();
+    if keys.peek().is_none() {
+        return;
+    }
+    let known: Vec<Bitrate> =
+        Bitrate::ALL.iter().copied().filter(|&rate| info.supports(rate).is_some()).collect();
+    for entry in keys {
         let key = entry.key_text();
         let finding = report.add(entry.key_span(), format!("CiA 306 knows no bit rate `{key}`"));
-        match meant(&key).filter(|&rate| info.supports(rate).is_none()) {
+        match meant(&key).filter(|rate| !known.contains(rate)) {
             Some(rate) => {
                 let canonical = format!("BaudRate_{}", rate.kbit_per_s());
                 finding.help(format!("write `{canonical}={}`", entry.text())).unsafe_fix(
@@ -87,25 +96,26 @@ mod tests {
 
     #[test]
     fn slips_are_mended() {
-        let text = "[DeviceInfo]\nBaudrate1000=1\nbaudrate_500k=1\nBaudRate_Auto=1\nBaudRate_020=1\n";
+        let text =
+            "[DeviceInfo]\nBaudrate1000=1\nbaudrate_500k=1\nBaudRate_Auto=1\nBaudRate_020=1\nBaudRate_=1\n";
         assert_eq!(
             findings(&UNKNOWN_BAUD_RATE_KEY, text),
             [
-                "2:1 info: CiA 306 knows no bit rate `Baudrate1000`",
                 "3:1 info: CiA 306 knows no bit rate `baudrate_500k`",
                 "4:1 info: CiA 306 knows no bit rate `BaudRate_Auto`",
-                "5:1 info: CiA 306 knows no bit rate `BaudRate_020`"
+                "5:1 info: CiA 306 knows no bit rate `BaudRate_020`",
+                "6:1 info: CiA 306 knows no bit rate `BaudRate_`"
             ]
         );
         assert_eq!(
             fixed(&UNKNOWN_BAUD_RATE_KEY, text),
-            "[DeviceInfo]\nBaudRate_1000=1\nBaudRate_500=1\nBaudRate_Auto=1\nBaudRate_20=1\n"
+            "[DeviceInfo]\nBaudrate1000=1\nBaudRate_500=1\nBaudRate_Auto=1\nBaudRate_20=1\nBaudRate_=1\n"
         );
     }
 
     #[test]
     fn an_entry_that_is_there_is_not_written_again() {
-        let text = "[DeviceInfo]\nBaudRate1000=1\nBaudRate_1000=1\n";
+        let text = "[DeviceInfo]\nBaudRate_1000k=1\nBaudRate_1000=1\n";
         assert_eq!(fixed(&UNKNOWN_BAUD_RATE_KEY, text), text);
         assert!(findings(&UNKNOWN_BAUD_RATE_KEY, "[DeviceInfo]\nBAUDRATE_1000=1\nBaud=1\n").is_empty());
     }

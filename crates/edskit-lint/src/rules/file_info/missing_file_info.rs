@@ -1,12 +1,14 @@
-use crate::missing::lost_header;
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
+use edskit_model::SectionKind;
 
 rule! {
     /// The file has no section `[FileInfo]`
     ///
     /// ## What it does
-    /// Reports a file without `[FileInfo]`. If the header hides in the middle of another line, that line is shown.
+    /// Reports a file without `[FileInfo]`. One whose header stands behind other text,
+    /// because a line break was lost, is the matter of SYN008.
     ///
     /// ## Why is this bad
     /// The section is mandatory. It tells which edition of the format and which version of the file this is, so
@@ -43,7 +45,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    if context.sheet.file_info().is_some() || lost_header(context, "[FileInfo]", report) {
+    if context.sheet.file_info().is_some() || lost_header::hides(context, SectionKind::FileInfo) {
         return;
     }
     report
@@ -54,16 +56,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{findings, fixed};
+    use crate::testing::findings;
 
     #[test]
     fn a_header_may_hide_in_a_line() {
-        let text = "50[FileInfo]\nFileName=a.eds\n[1000]\n";
-        assert_eq!(
-            findings(&MISSING_FILE_INFO, text),
-            ["1:3 warning: the header `[FileInfo]` does not begin its line, so the section is missing"]
-        );
-        assert_eq!(fixed(&MISSING_FILE_INFO, text), "50\n[FileInfo]\nFileName=a.eds\n[1000]\n");
+        assert!(findings(&MISSING_FILE_INFO, "50[FileInfo]\nFileName=a.eds\n[1000]\n").is_empty());
         assert_eq!(findings(&MISSING_FILE_INFO, "; [FileInfo]\n[1000]\n").len(), 1);
         assert!(findings(&MISSING_FILE_INFO, "[1000]\n[fileinfo]\n").is_empty());
     }

@@ -1,7 +1,7 @@
 use crate::rule::rule;
 use crate::wording::count;
 use crate::{Context, Report};
-use edskit_model::{Encoding, Entry, Shape, Span};
+use edskit_model::{Encoding, Entry, Line, Shape, Span};
 
 rule! {
     /// A text is longer than CiA 306 allows for its entry
@@ -35,17 +35,23 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
-        check: Entry(check),
+        check: File(check),
     }
 }
 
 /// The smallest limit; nearly every line of a file is shorter.
 const SMALLEST_LIMIT: usize = 241;
 
-fn check(context: &Context<'_>, entry: Entry<'_>, report: &mut Report) {
-    if entry.line().span().len() <= SMALLEST_LIMIT {
-        return;
+fn check(context: &Context<'_>, report: &mut Report) {
+    let is_long = |line: &Line| line.span().len() > SMALLEST_LIMIT;
+    if context.document().lines().iter().any(is_long) {
+        for entry in context.sheet.entries().filter(|entry| is_long(entry.line())) {
+            check_entry(context, entry, report);
+        }
     }
+}
+
+fn check_entry(context: &Context<'_>, entry: Entry<'_>, report: &mut Report) {
     let Shape::Text(limit @ 1..) = entry.key().name.shape() else { return };
     let limit = usize::from(limit);
     let raw = entry.raw();

@@ -1,6 +1,7 @@
 use super::edits;
 use crate::listing::List;
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::wording::{few, series};
 use crate::{Context, Edit, Report, Severity};
 use edskit_types::Index;
@@ -66,7 +67,8 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let is_absent = |list: &List| list.section(context.sheet).is_none();
+    let is_absent =
+        |list: &List| list.section(context.sheet).is_none() && !lost_header::hides(context, list.kind());
     let absent: Vec<List> = List::ALL.into_iter().filter(is_absent).collect();
     if absent.is_empty() {
         return;

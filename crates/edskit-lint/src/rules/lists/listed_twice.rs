@@ -1,9 +1,9 @@
 use super::edits;
 use crate::listing::{Item, List};
 use crate::rule::rule;
-use crate::{Context, Report};
+use crate::{Context, Finding, Report};
 use edskit_types::Index;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 rule! {
     /// An object is listed twice
@@ -57,37 +57,63 @@ fn check(context: &Context<'_>, report: &mut Report) {
             firsts.entry(index).or_insert(item);
         }
     }
+    let mut pairs = Vec::new();
     for again in repeated {
         let Some(index) = again.index else { continue };
         // The one in the list that the object does not belong into is too many.
         let first = firsts[&index];
         let is_misplaced = first.list != again.list && List::of(index) == Some(again.list);
         let (kept, spare) = if is_misplaced { (again, first) } else { (first, again) };
-        report_item(context, index, kept, spare, report);
+        pairs.push(Pair { kept, spare });
+    }
+    let mut mended = Vec::new();
+    for pair in &pairs {
+        let finding = report_pair(context, pair, report);
+        // One fix for all of a list, because each of them numbers the whole list anew.
+        if !mended.contains(&pair.lists()) {
+            mended.push(pair.lists());
+            mend(context, pair.lists(), &pairs, finding);
+        }
     }
 }
 
-fn report_item(context: &Context<'_>, index: Index, kept: &Item, spare: &Item, report: &mut Report) {
+/// Two items with the same index.
+struct Pair<'a> {
+    kept: &'a Item,
+    spare: &'a Item,
+}
+
+impl Pair<'_> {
+    fn lists(&self) -> (List, List) {
+        (self.kept.list, self.spare.list)
+    }
+}
+
+fn report_pair<'r>(context: &Context<'_>, pair: &Pair<'_>, report: &'r mut Report) -> &'r mut Finding {
     let document = context.document();
-    let (message, help) = if kept.list == spare.list {
-        (
-            format!("{index} is listed twice"),
-            "take this one out, or write the index that was meant".to_owned(),
-        )
+    let index = pair.spare.index.map_or_else(String::new, |index| index.to_string());
+    let (kept, spare) = (pair.kept.list.name(), pair.spare.list.name());
+    let (message, help) = if kept == spare {
+        let help = "take this one out, or write the index that was meant".to_owned();
+        (format!("{index} is listed twice"), help)
     } else {
-        let message =
-            format!("{index} is listed in `[{}]` and in `[{}]`", spare.list.name(), kept.list.name());
-        (message, format!("leave it in `[{}]`", kept.list.name()))
+        (format!("{index} is listed in `[{spare}]` and in `[{kept}]`"), format!("leave it in `[{kept}]`"))
     };
-    let finding = report.add(spare.value_span(document), message);
-    finding.label(kept.value_span(document), "the other one").help(help);
-    if edits::is_regular(context, spare.list) {
-        let edits = edits::renumber(context, spare.list, |item| item.key != spare.key);
-        if kept.list == spare.list {
-            finding.safe_fix("Take the second one out", edits);
-        } else {
-            finding.unsafe_fix(format!("Take it out of [{}]", spare.list.name()), edits);
-        }
+    let finding = report.add(pair.spare.value_span(document), message);
+    finding.label(pair.kept.value_span(document), "the other one").help(help)
+}
+
+fn mend(context: &Context<'_>, (kept, spare): (List, List), pairs: &[Pair<'_>], finding: &mut Finding) {
+    if !edits::is_regular(context, spare) {
+        return;
+    }
+    let alike = pairs.iter().filter(|pair| pair.lists() == (kept, spare));
+    let numbers: HashSet<Option<u16>> = alike.map(|pair| pair.spare.number()).collect();
+    let edits = edits::renumber(context, spare, |item| !numbers.contains(&item.number()));
+    if kept == spare {
+        finding.safe_fix(format!("Take the second ones out of [{}]", spare.name()), edits);
+    } else {
+        finding.unsafe_fix(format!("Take them out of [{}]", spare.name()), edits);
     }
 }
 

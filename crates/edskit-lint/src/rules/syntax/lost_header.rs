@@ -25,6 +25,13 @@ pub(super) fn on_line(context: &Context<'_>, number: usize) -> Option<Span> {
     (is_number || is_missed(context, number, kind)).then_some(header)
 }
 
+/// Whether the header of a section stands behind other text, which SYN008 reports: the section is not missing.
+pub(crate) fn hides(context: &Context<'_>, kind: SectionKind) -> bool {
+    let headers = (0..context.document().lines().len()).filter_map(|number| on_line(context, number));
+    let name = |header: Span| header.sub(1, header.len() - 2).slice(context.source());
+    headers.into_iter().any(|header| SectionKind::of(name(header)) == kind)
+}
+
 /// Whether a section is nowhere else, and the next entry is one that belongs into it. A text may well name an object:
 /// `Target [6081]`.
 fn is_missed(context: &Context<'_>, number: usize, kind: SectionKind) -> bool {
@@ -58,6 +65,13 @@ mod tests {
         assert_eq!(found("[1000]\nPDOMapping=0[1001]\n[1001]\n"), ["[1001]"]);
         assert_eq!(found("50[FileInfo]\n\nFileName=a\n"), ["[FileInfo]"]);
         assert_eq!(found("[1000]\nDefaultValue=5[1001] \nParameterName=a\n"), ["[1001]"]);
+    }
+
+    #[test]
+    fn a_hidden_section_is_known_by_its_kind() {
+        let sheet = Datasheet::parse(b"50[FileInfo]\nFileName=a\n[1000]\n");
+        let context = Context::new(&sheet, FileKind::Eds, None);
+        assert!(hides(&context, SectionKind::FileInfo) && !hides(&context, SectionKind::DeviceInfo));
     }
 
     #[test]

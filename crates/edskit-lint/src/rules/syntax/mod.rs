@@ -14,7 +14,7 @@ mod invalid_number;
 mod leading_zero_name;
 mod line_too_long;
 mod line_without_equals;
-mod lost_header;
+pub(crate) mod lost_header;
 mod malformed_section;
 mod mixed_line_endings;
 mod nodeid_bad_expression;

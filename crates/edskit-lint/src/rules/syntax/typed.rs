@@ -6,12 +6,7 @@ use edskit_types::DataType;
 /// What the value of a key is in a section of some kind. Items of lists are indices and numbers, names, or values.
 #[inline]
 pub(super) fn shape_in(section: SectionKind, name: KeyName) -> Shape {
-    match (name, section) {
-        (KeyName::Item, SectionKind::CompactNames(_) | SectionKind::CompactDenotations(_)) => Shape::Text(0),
-        (KeyName::Item, SectionKind::CompactValues(_)) => Shape::Value,
-        (KeyName::Item, _) => Shape::Unsigned(16),
-        _ => name.shape(),
-    }
+    section.shape_of(name)
 }
 
 /// What the value of an entry is; text where CiA 306 does not know the key.
@@ -22,10 +17,7 @@ pub(super) fn shape(entry: Entry<'_>) -> Shape {
 
 /// The data type of the values in a section, if it is one of CiA 301.
 pub(super) fn data_type(section: Section<'_>) -> Option<DataType> {
-    match section.kind() {
-        SectionKind::CompactValues(index) => section.sheet().object(index)?.standard_type(),
-        _ => section.description()?.standard_type(),
-    }
+    section.value_type()
 }
 
 #[cfg(test)]

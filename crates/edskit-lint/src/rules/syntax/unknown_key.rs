@@ -2,6 +2,7 @@ use crate::rule::rule;
 use crate::similar::nearest;
 use crate::{Context, Edit, Report, Severity};
 use edskit_model::{Entry, Key, KeyGroup, KeyName, Section};
+use edskit_types::Index;
 use std::collections::HashMap;
 
 rule! {
@@ -66,7 +67,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
                 continue;
             }
             let text = entry.key_text();
-            if is_owned_elsewhere(group, &text) {
+            if is_owned_elsewhere(group, &text) || is_list_item(section, entry) {
                 continue;
             }
             if name == KeyName::Unknown {
@@ -110,6 +111,12 @@ fn is_owned_elsewhere(group: KeyGroup, text: &str) -> bool {
     let prefix = "BaudRate_";
     group == KeyGroup::DeviceInfo
         && text.get(..prefix.len()).is_some_and(|start| start.eq_ignore_ascii_case(prefix))
+}
+
+/// A key in a list of objects that stands for the number of an item, such as `Index0`, is the matter of LST003.
+fn is_list_item(section: Section<'_>, entry: Entry<'_>) -> bool {
+    let index = || entry.unsigned::<u16>().known().map(Index);
+    section.kind().is_object_list() && index().is_some_and(|index| section.sheet().object(index).is_some())
 }
 
 /// The key that was meant.
@@ -260,6 +267,15 @@ mod tests {
                 "it belongs into `[DeviceInfo]`; is a section header missing above?",
                 "it belongs into the section of an object; is a section header missing above?"
             ]
+        );
+    }
+
+    #[test]
+    fn keys_of_items_are_left_to_their_rule() {
+        let text = "[OptionalObjects]\nIndex0=0x1017\nIndex1=0x1018\n[1017]\n";
+        assert_eq!(
+            findings(&UNKNOWN_KEY, text),
+            ["3:1 info: `Index1` is not a key of CiA 306 in `[OptionalObjects]`"]
         );
     }
 }

@@ -1,4 +1,5 @@
-use super::reading::{each_value, name};
+use super::reading::{each_value, is_formula, name};
+use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
 use edskit_model::{Formula, Value};
@@ -46,11 +47,15 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(data_type) = variable.standard_type.filter(|data_type| !data_type.is_integer()) else { return };
     each_value(context, variable, |_, field| {
         let raw = field.entry.raw();
-        if !Formula::is_meant(raw) {
+        if !is_formula(raw) {
             return;
         }
-        let is_text = matches!(field.value, Ok(Value::Text(_)));
-        if is_text && Formula::parse(raw).is_err() {
+        // A text may speak of the node-ID; of what cannot be one, an inline comment is the first defect.
+        let is_other = match field.value {
+            Ok(Value::Text(_)) => Formula::parse(raw).is_err(),
+            _ => value_length(raw).is_some(),
+        };
+        if is_other {
             return;
         }
         let message =
@@ -94,8 +99,9 @@ mod tests {
     }
 
     #[test]
-    fn texts_may_speak_of_money() {
-        assert_eq!(default(9, "Axis $NODEID"), "");
-        assert_eq!(default(9, "5 $"), "");
+    fn other_texts_are_no_formulas() {
+        for (data_type, value) in [(9, "Axis $NODEID"), (9, "5 $"), (8, "$NODEID ; x"), (0xA, "$1A")] {
+            assert_eq!(default(data_type, value), "");
+        }
     }
 }

@@ -3,7 +3,7 @@
 use crate::inline_comment;
 use crate::{Context, FileKind, Variable};
 use core::fmt;
-use edskit_model::{Entry, Field, KeyName, Section, SectionKind, Value};
+use edskit_model::{Entry, Field, KeyName, Radix, Section, SectionKind, Value};
 use edskit_types::{DataType, NodeId};
 
 /// One meaning of a literal. All values of one data type are of one variant, so they compare.
@@ -89,17 +89,26 @@ pub(super) fn node_ids(context: &Context<'_>) -> [NodeId; 2] {
     }
 }
 
-/// Whether one reading of an integer or real value lies in its data type. A value that is neither does.
+/// Whether one reading of an integer or real value lies in its integer or real data type. A value that is neither
+/// does.
+#[inline]
 pub(super) fn fits(value: Value<'_>, data_type: DataType, node_id: NodeId) -> bool {
+    let Some(bits) = data_type.bits().map(u32::from) else { return true };
+    // Hexadecimal literals of signed types may use the bit of the sign.
+    let fits = |value: u64, is_hex: bool| {
+        let width = if data_type.is_signed() && !is_hex { bits - 1 } else { bits };
+        value.checked_shr(width).is_none_or(|rest| rest == 0)
+    };
     match value {
+        Value::Integer(number) => match number.to::<u64>() {
+            Some(value) => fits(value, number.radix() == Radix::Hexadecimal),
+            None => data_type.range().is_none_or(|(low, _)| number.value() >= low),
+        },
+        Value::Formula(formula) => {
+            formula.evaluate(node_id).is_some_and(|sum| fits(sum, !formula.style().decimal))
+        }
         // The bits of a hexadecimal REAL were counted when it was read, and infinities are written on purpose.
         Value::Real(real) => data_type != DataType::Real32 || !real.is_finite() || (real as f32).is_finite(),
-        Value::Integer(_) | Value::Formula(_) => {
-            let Some((low, high)) = data_type.range() else { return true };
-            let holds = |reading| matches!(reading, Scalar::Integer(value) if value >= low && value <= high);
-            Readings::of(value, data_type, node_id)
-                .is_some_and(|readings| readings.all().into_iter().any(holds))
-        }
         _ => true,
     }
 }
@@ -133,15 +142,18 @@ pub(super) fn each_value<'a>(
             }
         }
     }
-    for (role, field) in [
-        (Role::Value, variable.default_value),
-        (Role::Value, variable.parameter_value),
-        (Role::Limit, variable.low_limit),
-        (Role::Limit, variable.high_limit),
-    ] {
-        if let Some(field) = field {
-            visit(role, field);
-        }
+    // One after the other rather than in a loop: most variables lack most of them, and a loop would copy all four.
+    if let Some(field) = variable.default_value {
+        visit(Role::Value, field);
+    }
+    if let Some(field) = variable.parameter_value {
+        visit(Role::Value, field);
+    }
+    if let Some(field) = variable.low_limit {
+        visit(Role::Limit, field);
+    }
+    if let Some(field) = variable.high_limit {
+        visit(Role::Limit, field);
     }
 }
 
@@ -152,9 +164,14 @@ pub(super) fn is_compact(variable: &Variable<'_>) -> bool {
         && variable.description.compact_sub_obj().and_then(Field::known).is_some_and(|count| count > 0)
 }
 
-/// Whether other rules own what is wrong with the text: it holds a `$` or an inline comment.
+/// Whether other rules own what is wrong with the text: a formula or an inline comment.
 pub(super) fn is_owned_elsewhere(raw: &[u8]) -> bool {
-    raw.contains(&b'$') || inline_comment::value_length(raw).is_some()
+    is_formula(raw) || inline_comment::value_length(raw).is_some()
+}
+
+/// Whether a text that is no integer speaks of the node-ID. `$` alone may begin a hexadecimal number.
+pub(super) fn is_formula(raw: &[u8]) -> bool {
+    raw.contains(&b'$') && raw.windows(5).any(|word| word.eq_ignore_ascii_case(b"$NODE"))
 }
 
 /// How messages call an entry.

@@ -52,11 +52,14 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    let Some(data_type) = variable.standard_type.filter(|data_type| data_type.is_numeric()) else { return };
-    let limits = Limits { low: Limit::of(variable.low_limit), high: Limit::of(variable.high_limit) };
-    if (limits.low.is_none() && limits.high.is_none()) || HAS_SIGNATURE.contains(&variable.index) {
+    if variable.low_limit.is_none() && variable.high_limit.is_none() {
         return;
     }
+    let Some(data_type) = variable.standard_type.filter(|data_type| data_type.is_numeric()) else { return };
+    if HAS_SIGNATURE.contains(&variable.index) {
+        return;
+    }
+    let limits = Limits { low: Limit::of(variable.low_limit), high: Limit::of(variable.high_limit) };
     let node_ids = node_ids(context);
     each_value(context, variable, |role, field| {
         if let (Role::Value, Ok(value)) = (role, field.value)
