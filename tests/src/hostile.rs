@@ -98,10 +98,10 @@ pub const ALL: &[Hostile] = &[
     kind("many dummies", "a.eds", NUMBERS, |size| {
         numbered(size, "[DummyUsage]", &|number| format!("Dummy{number:04X}=1"))
     }),
-    kind("many links", "a.eds", MANY, |size| {
+    kind("many links", "a.eds", NUMBERS, |size| {
         numbered(size, "[1000ObjectLinks]\nObjectLinks=65535", &|number| format!("{}=0x1000", number + 1))
     }),
-    kind("many values of a compact object", "a.dcf", MANY, |size| {
+    kind("many values of a compact object", "a.dcf", NUMBERS, |size| {
         let head = "[2100]\nParameterName=a\nObjectType=8\nDataType=5\nCompactSubObj=254\n[2100Value]\nNrOfEntries=254";
         numbered(size, head, &|number| format!("{}=1", number + 1))
     }),
@@ -110,15 +110,15 @@ pub const ALL: &[Hostile] = &[
             format!("[M{number}ModuleInfo]\nProductName=a")
         })
     }),
-    kind("many fixed objects of a module", "a.eds", MANY, |size| {
+    kind("many fixed objects of a module", "a.eds", NUMBERS, |size| {
         let head = "[SupportedModules]\nNrOfEntries=1\n[M1ModuleInfo]\nProductName=a\n[M1FixedObjects]\nNrOfEntries=65535";
         numbered(size, head, &|number| format!("{}=0x2000", number + 1))
     }),
-    kind("many connected modules", "a.dcf", MANY, |size| {
+    kind("many connected modules", "a.dcf", NUMBERS, |size| {
         let head = "[SupportedModules]\nNrOfEntries=1\n[M1ModuleInfo]\nProductName=a\n[ConnectedModules]\nNrOfEntries=65535";
         numbered(size, head, &|number| format!("{}=1", number + 1))
     }),
-    kind("many channels", "a.eds", MANY, |size| {
+    kind("many channels", "a.eds", NUMBERS, |size| {
         numbered(size, "[DynamicChannels]\nNrOfSeg=255", &|number| format!("Type{}=0x0007", number + 1))
     }),
     kind("many tools", "a.eds", NUMBERS, |size| {
