@@ -1,7 +1,7 @@
 //! Every real file of the corpus can be read, whole or cut off.
 
 use edskit_lint::{FileKind, Finding, Linter, RuleSet};
-use edskit_model::{Datasheet, Document, Line};
+use edskit_model::{Datasheet, Document, Line, format, same_meaning};
 use edskit_tests::CorpusFile;
 
 /// How many EDS and DCF files the corpus has.
@@ -33,6 +33,20 @@ fn every_file_loads() {
         assert_eq!(sheet.objects().len() == 0, file.name.starts_with(NO_OBJECT), "{}", file.name);
         let findings = lint(&linter, &sheet, &file.name);
         assert!(!is_foreign(&findings), "{}: this is a CANopen file", file.name);
+    }
+}
+
+#[test]
+fn the_canonical_form_of_every_file_means_the_same() {
+    let Some(corpus) = corpus("formatting the corpus") else { return };
+    for file in &corpus {
+        let before = Datasheet::parse(&file.bytes);
+        let once = format(&before);
+        let after = Datasheet::parse(&once);
+        if let Err(difference) = same_meaning(&before, &after) {
+            panic!("{}: {difference}", file.name);
+        }
+        assert!(format(&after) == once, "{}: a second run changes something", file.name);
     }
 }
 

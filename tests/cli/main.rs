@@ -54,13 +54,14 @@ struct Buffer(Arc<Mutex<Vec<u8>>>);
 
 impl Buffer {
     fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).expect("the command line prints UTF-8")
+        String::from_utf8(self.0.lock().expect("no writer panics").clone())
+            .expect("the command line prints UTF-8")
     }
 }
 
 impl Write for Buffer {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
+        self.0.lock().expect("no writer panics").write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -76,23 +77,24 @@ impl Folder {
         let path = std::env::temp_dir().join(format!("edskit-{}-{name}", std::process::id()));
         // What an earlier run of the same number may have left.
         let _ = std::fs::remove_dir_all(&path);
-        std::fs::create_dir_all(&path).unwrap();
+        std::fs::create_dir_all(&path).expect("the folder of a test can be made");
         Self(path)
     }
 
     fn write(&self, name: &str, content: impl AsRef<[u8]>) -> String {
         let path = self.0.join(name);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, content).unwrap();
-        path.to_str().unwrap().to_owned()
+        let parent = path.parent().expect("a file has a folder");
+        std::fs::create_dir_all(parent).expect("the folder of a test can be made");
+        std::fs::write(&path, content).expect("the file of a test can be written");
+        path.to_str().expect("temporary paths are UTF-8").to_owned()
     }
 
     fn read(&self, name: &str) -> Vec<u8> {
-        std::fs::read(self.0.join(name)).unwrap()
+        std::fs::read(self.0.join(name)).expect("the file of a test can be read")
     }
 
     fn path(&self) -> &str {
-        self.0.to_str().unwrap()
+        self.0.to_str().expect("temporary paths are UTF-8")
     }
 
     /// An output with the folder's own path taken out.
