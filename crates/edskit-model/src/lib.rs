@@ -2,7 +2,7 @@
 //!
 //! - [`Document`] is the text: every byte, every line, lossless. Parsing never fails.
 //! - [`Datasheet`] is the meaning: sections, objects, values, each with its place in the text.
-//! - [`format`] gives the canonical text, and [`same_meaning`] tells whether two files say the same.
+//! - [`format()`] gives the canonical text, and [`same_meaning`] tells whether two files say the same.
 //! - [`nature`] tells what a file is before anybody reads it as an EDS.
 //!
 //! The crate opens no file, prints nothing and knows no clock.
