@@ -27,7 +27,7 @@ impl Hostile {
     }
 }
 
-/// Every kind; the size is a number of bytes where [`LONG`] stands, else a number of lines.
+/// Every kind; the size is a number of bytes where `LONG` stands, else a number of lines.
 pub const ALL: &[Hostile] = &[
     kind("one line of NUL", "a.eds", LONG, |size| object(&"\0".repeat(size))),
     kind("only NUL", "a.eds", LONG, |size| "\0".repeat(size)),

@@ -50,7 +50,7 @@ impl Linter {
         &self.rules
     }
 
-    /// Every finding of the rules, in the order of the file; of one rule at most `MOST_FINDINGS`, the last of which
+    /// Every finding of the rules, in the order of the file; of one rule at most [`MOST_FINDINGS`](crate::MOST_FINDINGS), the last of which
     /// then tells how many were left out.
     ///
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
