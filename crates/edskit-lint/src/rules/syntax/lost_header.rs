@@ -25,6 +25,11 @@ pub(super) fn on_line(context: &Context<'_>, number: usize) -> Option<Span> {
     (is_number || is_missed(context, number, kind)).then_some(header)
 }
 
+/// Whether any line hides a header.
+pub(super) fn is_anywhere(context: &Context<'_>) -> bool {
+    (0..context.document().lines().len()).any(|number| on_line(context, number).is_some())
+}
+
 /// Whether the header of a section stands behind other text, which SYN008 reports: the section is not missing.
 pub(crate) fn hides(context: &Context<'_>, kind: SectionKind) -> bool {
     let headers = (0..context.document().lines().len()).filter_map(|number| on_line(context, number));

@@ -1,3 +1,4 @@
+use super::lost_header;
 use crate::rule::rule;
 use crate::{Context, Report};
 use edskit_model::SectionKind;
@@ -43,8 +44,8 @@ rule! {
 
 /// Whether the file is something else, so that no other rule makes sense.
 pub(crate) fn is_foreign(context: &Context<'_>) -> bool {
-    context.sheet.sections().all(|section| section.kind() == SectionKind::Unknown)
-        || Nature::of(context.source()) != Nature::Text
+    let has_header = || context.sheet.sections().any(|section| section.kind() != SectionKind::Unknown);
+    Nature::of(context.source()) != Nature::Text || !(has_header() || lost_header::is_anywhere(context))
 }
 
 pub(crate) fn check(context: &Context<'_>, report: &mut Report) {
@@ -104,6 +105,7 @@ mod tests {
             first(b"int main() { return a = 1; }\n"),
             "1:1 error: the file has no section that CiA 306 knows"
         );
+        assert_eq!(first(b"50[FileInfo]\nFileName=a.eds\n"), "");
         assert_eq!(first(b"[Topology]\nNodes=0\n"), "");
         assert_eq!(first(b"<<<<<<< HEAD\n[1000]\n"), "");
     }
