@@ -1,7 +1,7 @@
 //! What holds for every input, whatever it is.
 
 use edskit_lint::{FileKind, Finding, Fix, Linter, RuleSet};
-use edskit_model::{Datasheet, Span};
+use edskit_model::{Datasheet, Span, format, same_meaning};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select, subsequence};
@@ -67,7 +67,7 @@ fn the_files_of_the_project_as_they_are() {
     }
 }
 
-/// What holds for the text and for the findings of every rule.
+/// What holds for the text, for the findings of every rule, and for the canonical text.
 fn check(bytes: &[u8], name: &str) -> Result<(), TestCaseError> {
     let sheet = Datasheet::parse(bytes);
     prop_assert_eq!(sheet.document().to_bytes(), bytes);
@@ -78,6 +78,15 @@ fn check(bytes: &[u8], name: &str) -> Result<(), TestCaseError> {
     }
     prop_assert!(findings.is_sorted_by_key(|finding| finding.span().start));
     prop_assert_eq!(format!("{:?}", findings), format!("{:?}", lint()));
+    check_format(&sheet)
+}
+
+fn check_format(sheet: &Datasheet) -> Result<(), TestCaseError> {
+    let text = format(sheet);
+    let shown = text.escape_ascii();
+    let formatted = Datasheet::parse(&text);
+    prop_assert_eq!(same_meaning(sheet, &formatted), Ok(()), "{}", shown);
+    prop_assert!(format(&formatted) == text, "formatting again changes something: {}", shown);
     Ok(())
 }
 

@@ -14,7 +14,7 @@ const STEPS: &[Step] = &[
     ("lints", || run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
     ("tests", || run(&mut cargo(&["test", "--workspace"]))),
     ("documentation", documentation),
-    ("benchmarks compile", || run(&mut cargo(&["bench", "--workspace", "--no-run"]))),
+    ("benchmarks compile", || run(&mut cargo(&["bench", "-p", "edskit-benches", "--no-run"]))),
     ("fuzz targets compile", fuzz_targets),
     ("independent reading of the corpus", python::independent_reading),
 ];
