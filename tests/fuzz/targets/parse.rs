@@ -39,7 +39,7 @@ fuzz_target!(|bytes: &[u8]| {
 /// Whether the byte order mark and the lines with their endings cover every byte once.
 fn tiles(document: &Document) -> bool {
     let start = document.byte_order_mark().map_or(0, |mark| mark.end);
-    let spans = document.lines().iter().map(Line::full_span);
-    let end = spans.fold(Some(start), |end, span| end.filter(|&end| end == span.start).map(|_| span.end));
+    let mut spans = document.lines().iter().map(Line::full_span);
+    let end = spans.try_fold(start, |end, span| (end == span.start).then_some(span.end));
     end == Some(document.to_bytes().len() as u32)
 }
