@@ -9,17 +9,20 @@
 mod context;
 mod evaluate;
 mod finding;
+mod fixer;
 mod inline_comment;
 mod linter;
 mod rule;
 mod rule_set;
 pub mod rules;
 mod similar;
+mod suppression;
 #[cfg(test)]
 mod testing;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
+pub use fixer::{Fixed, fix};
 pub use linter::Linter;
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
