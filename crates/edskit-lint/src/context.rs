@@ -1,5 +1,6 @@
 //! What checks see, and where they report.
 
+use crate::profile::{Applied, Prescribed, Prescription, Profile};
 use crate::{FileKind, Finding, Label, Rule};
 use edskit_model::{Datasheet, Description, Document, Field, Span, Value};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
@@ -12,9 +13,21 @@ pub struct Context<'a> {
     pub kind: FileKind,
     /// The file's own name without folders, where it has one.
     pub file_name: Option<&'a str>,
+    /// The profiles that the device follows.
+    pub(crate) profiles: Applied<'a>,
 }
 
 impl<'a> Context<'a> {
+    /// A file to be linted, with profiles besides those that every linter knows.
+    pub fn new(
+        sheet: &'a Datasheet,
+        kind: FileKind,
+        file_name: Option<&'a str>,
+        profiles: &'a [Profile],
+    ) -> Self {
+        Self { sheet, kind, file_name, profiles: Applied::new(sheet, profiles) }
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()
@@ -66,10 +79,17 @@ pub struct Variable<'a> {
     pub low_limit: Option<Field<'a, Value<'a>>>,
     /// The upper limit, read by the data type.
     pub high_limit: Option<Field<'a, Value<'a>>>,
+    /// What profiles prescribe for the object; nothing for most.
+    pub(crate) prescriptions: &'a [Prescription<'a>],
 }
 
 impl<'a> Variable<'a> {
-    pub(crate) fn new(index: Index, sub_index: Option<SubIndex>, description: Description<'a>) -> Self {
+    pub(crate) fn new(
+        index: Index,
+        sub_index: Option<SubIndex>,
+        description: Description<'a>,
+        prescriptions: &'a [Prescription<'a>],
+    ) -> Self {
         let object_type = description.object_type();
         let code = object_type.map_or(Some(ObjectCode::Var), Field::known);
         let data_type = description.data_type();
@@ -87,7 +107,20 @@ impl<'a> Variable<'a> {
             parameter_value: description.parameter_value(),
             low_limit: description.low_limit(),
             high_limit: description.high_limit(),
+            prescriptions,
         }
+    }
+
+    /// What profiles prescribe for the variable.
+    #[inline]
+    pub(crate) fn prescribed(&self) -> impl Iterator<Item = Prescribed<'a>> {
+        self.prescriptions.iter().filter_map(|prescription| prescription.of(self))
+    }
+
+    /// Whether the section describes equal sub-objects by CompactSubObj.
+    pub(crate) fn is_compact(&self) -> bool {
+        self.sub_index.is_none()
+            && self.description.compact_sub_obj().and_then(Field::known).is_some_and(|count| count > 0)
     }
 
     /// Whether it holds a value of its own: a sub-object, a VAR, a DOMAIN, a DEFTYPE. Not an ARRAY or RECORD.

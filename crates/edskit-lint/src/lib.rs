@@ -12,6 +12,7 @@ mod finding;
 mod fixer;
 mod inline_comment;
 mod linter;
+mod profile;
 mod rule;
 mod rule_set;
 pub mod rules;
@@ -24,6 +25,7 @@ pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use fixer::{Fixed, fix};
 pub use linter::Linter;
+pub use profile::{Profile, ProfileError};
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
     ObjectCheck, Rule, SectionCheck, VariableCheck,
