@@ -3,7 +3,9 @@
 mod bad_input;
 mod explain;
 mod help;
+mod fix;
 mod lint;
+mod settings;
 mod show;
 
 use edskit::{Exit, Streams};
