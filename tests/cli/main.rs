@@ -2,8 +2,8 @@
 
 mod bad_input;
 mod explain;
-mod help;
 mod fix;
+mod help;
 mod lint;
 mod settings;
 mod show;

@@ -39,7 +39,10 @@ fn overrides_are_for_some_files() {
     );
     folder.write("own.eds", BAD);
     folder.write("vendor/theirs.eds", BAD);
-    assert_eq!(codes(&folder, &[]), ["own.eds error SYN013", "own.eds error OBJ013", "theirs.eds warning SYN013"]);
+    assert_eq!(
+        codes(&folder, &[]),
+        ["own.eds error SYN013", "own.eds error OBJ013", "theirs.eds warning SYN013"]
+    );
 }
 
 #[test]
@@ -66,7 +69,10 @@ fn mistakes_in_settings_have_a_place() {
 #[test]
 fn comments_silence_findings() {
     let folder = Folder::new("suppression");
-    folder.write("a.eds", format!(";edskit: allow-file(SYN013) both are meant\n{BAD};edskit: allow(OBJ013)\nx=1\n"));
+    folder.write(
+        "a.eds",
+        format!(";edskit: allow-file(SYN013) both are meant\n{BAD};edskit: allow(OBJ013)\nx=1\n"),
+    );
     let all = ["--select", "SYN013,OBJ013,SYN026"];
     assert_eq!(codes(&folder, &all), ["a.eds error OBJ013", "a.eds warning SYN026"]);
 }
@@ -76,7 +82,17 @@ fn a_baseline_hides_what_is_known() {
     let folder = Folder::new("baseline");
     folder.write("a.eds", BAD);
     let baseline = format!("{}/known.json", folder.path());
-    let rules = ["lint", folder.path(), "--isolated", "--select", "SYN013,OBJ013", "--format", "concise", "--baseline", &baseline];
+    let rules = [
+        "lint",
+        folder.path(),
+        "--isolated",
+        "--select",
+        "SYN013,OBJ013",
+        "--format",
+        "concise",
+        "--baseline",
+        &baseline,
+    ];
     let missing = edskit(&rules);
     assert_eq!(missing.exit, Exit::Failed);
     insta::assert_snapshot!("baseline_missing", folder.clean(&missing));
@@ -84,7 +100,10 @@ fn a_baseline_hides_what_is_known() {
     insta::assert_snapshot!("baseline_update", folder.clean(&update));
     insta::assert_snapshot!("baseline_file", String::from_utf8(folder.read("known.json")).unwrap());
     let clean = edskit(&rules);
-    assert_eq!((clean.exit, clean.stdout.as_str()), (Exit::Clean, "1 file, no findings, 2 known from the baseline\n"));
+    assert_eq!(
+        (clean.exit, clean.stdout.as_str()),
+        (Exit::Clean, "1 file, no findings, 2 known from the baseline\n")
+    );
     // Moved lines are still known; another finding of the same kind is new.
     folder.write("a.eds", format!(";moved\n\n{BAD}[2001sub0]\nDataType=0x0007\n"));
     let new = edskit(&rules);

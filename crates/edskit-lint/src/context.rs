@@ -18,14 +18,15 @@ pub struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    /// A file to be linted, with profiles besides those that every linter knows.
-    pub fn new(
-        sheet: &'a Datasheet,
-        kind: FileKind,
-        file_name: Option<&'a str>,
-        profiles: &'a [Profile],
-    ) -> Self {
-        Self { sheet, kind, file_name, profiles: Applied::new(sheet, profiles) }
+    /// A file to be linted, held to the profiles of CiA.
+    pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
+        Self { sheet, kind, file_name, profiles: Applied::new(sheet) }
+    }
+
+    /// The same, held to these profiles too.
+    pub fn with_profiles(mut self, profiles: &'a [Profile]) -> Self {
+        self.profiles.add(self.sheet, profiles);
+        self
     }
 
     /// The text.

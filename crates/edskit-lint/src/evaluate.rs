@@ -1,7 +1,7 @@
 //! What a value is on the device: ParameterValue before DefaultValue, formulas at a node-ID.
 
-use crate::{Context, FileKind};
-use edskit_model::{Datasheet, Entry, Field, Object, Span, Value};
+use crate::{Context, FileKind, Variable};
+use edskit_model::{Datasheet, Entry, Field, KeyName, Object, SectionKind, Span, Value};
 use edskit_types::{CobId, DataType, Index, NodeId, SubIndex};
 
 /// The node-IDs that values are evaluated at, in ascending order: the one that a DCF commissions, else the lowest and
@@ -83,6 +83,25 @@ impl<'a> Effective<'a> {
     }
 }
 
+/// Every value that a variable says: DefaultValue, ParameterValue, and the entries of `[xxxxValue]` of a compact object.
+pub(crate) fn stated<'a>(
+    context: &Context<'a>,
+    variable: &Variable<'a>,
+) -> impl Iterator<Item = Effective<'a>> {
+    let data_type = variable.standard_type.unwrap_or(DataType::Unsigned64);
+    let is_compact = variable.is_compact();
+    let own = if is_compact || variable.holds_value() {
+        [variable.default_value, variable.parameter_value]
+    } else {
+        [None, None]
+    };
+    let values = SectionKind::CompactValues(variable.index);
+    let list = is_compact.then(|| context.sheet.section(values)).flatten();
+    let listed = list.into_iter().flat_map(|list| list.all_numbered(KeyName::Item));
+    let listed = listed.map(move |entry| entry.value(Some(data_type)));
+    own.into_iter().flatten().chain(listed).filter_map(move |field| Effective::new(field, data_type))
+}
+
 /// The value that counts at `index` and `sub_index`, 00h for a VAR.
 pub(crate) fn effective(sheet: &Datasheet, index: Index, sub_index: u8) -> Option<Effective<'_>> {
     Effective::of(sheet.object(index)?, sub_index)
@@ -93,7 +112,7 @@ mod tests {
     use super::*;
 
     fn context<'a>(sheet: &'a Datasheet, kind: FileKind) -> Context<'a> {
-        Context::new(sheet, kind, None, &[])
+        Context::new(sheet, kind, None)
     }
 
     fn numbers(text: &str, kind: FileKind) -> Vec<u8> {

@@ -6,6 +6,7 @@ use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
 use crate::suppression;
 use crate::{Check, FileKind, Finding, Profile, RuleSet};
 use edskit_model::Datasheet;
+use std::sync::Arc;
 
 /// Runs a set of rules over files.
 ///
@@ -19,7 +20,7 @@ use edskit_model::Datasheet;
 /// ```
 pub struct Linter {
     rules: RuleSet,
-    profiles: Vec<Profile>,
+    profiles: Arc<[Profile]>,
 }
 
 /// The checks of one run by level, so that the walk makes no decision per rule.
@@ -44,12 +45,12 @@ struct Active<F> {
 impl Linter {
     /// A linter with these rules.
     pub fn new(rules: RuleSet) -> Self {
-        Self { rules, profiles: Vec::new() }
+        Self { rules, profiles: Arc::default() }
     }
 
-    /// The same linter, which holds devices to these profiles too, besides those of CiA.
-    pub fn with_profiles(mut self, profiles: impl IntoIterator<Item = Profile>) -> Self {
-        self.profiles.extend(profiles);
+    /// The same linter, which holds devices to these profiles besides those of CiA.
+    pub fn with_profiles(mut self, profiles: impl Into<Arc<[Profile]>>) -> Self {
+        self.profiles = profiles.into();
         self
     }
 
@@ -64,7 +65,7 @@ impl Linter {
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
     /// finding that says what it is.
     pub fn lint(&self, sheet: &Datasheet, kind: FileKind, file_name: Option<&str>) -> Vec<Finding> {
-        let context = Context::new(sheet, kind, file_name, &self.profiles);
+        let context = Context::new(sheet, kind, file_name).with_profiles(&self.profiles);
         let mut report = Report::new(&NOT_CANOPEN);
         if not_canopen::is_foreign(&context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {

@@ -30,22 +30,30 @@ pub(crate) struct Application<'a> {
 }
 
 impl<'a> Applied<'a> {
-    /// The profiles of CiA and `own` ones, as far as the device follows them.
-    pub(crate) fn new(sheet: &'a Datasheet, own: &'a [Profile]) -> Self {
+    /// The profiles of CiA that the device follows.
+    pub(crate) fn new(sheet: &'a Datasheet) -> Self {
+        let mut applied = Self { applications: Vec::new() };
+        applied.add(sheet, &BUILT_IN);
+        applied
+    }
+
+    /// Adds those of `profiles` that the device follows.
+    pub(crate) fn add(&mut self, sheet: &'a Datasheet, profiles: &'a [Profile]) {
+        if profiles.is_empty() {
+            return;
+        }
         let device_types = device_types(sheet);
-        let mut applications = Vec::new();
-        for profile in BUILT_IN.iter().chain(own) {
+        for profile in profiles {
             let Some(number) = profile.device_profile else {
-                applications.push(Application { profile, shift: 0, device_type: None });
+                self.applications.push(Application { profile, shift: 0, device_type: None });
                 continue;
             };
             for &(shift, device_type) in &device_types {
                 if profile_number(device_type) == Some(number) {
-                    applications.push(Application { profile, shift, device_type: Some(device_type) });
+                    self.applications.push(Application { profile, shift, device_type: Some(device_type) });
                 }
             }
         }
-        Self { applications }
     }
 
     /// Puts into `found` what is prescribed for the object at `index`, and nothing else.
@@ -107,6 +115,8 @@ pub(crate) struct Prescription<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Prescribed<'a> {
     pub(crate) profile: &'a Profile,
+    /// What it prescribes for the whole object.
+    pub(crate) object: &'a ProfileObject,
     /// What the profile calls the variable.
     pub(crate) name: &'a str,
     pub(crate) attributes: &'a Attributes,
@@ -125,6 +135,10 @@ impl<'a> Prescription<'a> {
             |wanted: fn(ObjectCode) -> bool| codes.is_empty() || codes.iter().any(|&code| wanted(code));
         match variable.sub_index {
             Some(sub_index) if may_be(ObjectCode::has_sub_objects) => self.sub(sub_index),
+            // What CompactSubObj describes at once has no names of its own.
+            None if variable.is_compact() && may_be(|code| code == ObjectCode::Array) => {
+                Some(self.prescribed(&self.object.name, &self.object.attributes))
+            }
             None if variable.is_compact() && may_be(ObjectCode::has_sub_objects) => self.sub(SubIndex(1)),
             None if variable.holds_value() && may_be(|code| !code.has_sub_objects()) => {
                 Some(self.prescribed(&self.object.name, &self.object.attributes))
@@ -149,7 +163,7 @@ impl<'a> Prescription<'a> {
     }
 
     fn prescribed(self, name: &'a str, attributes: &'a Attributes) -> Prescribed<'a> {
-        Prescribed { profile: self.profile, name, attributes }
+        Prescribed { profile: self.profile, object: self.object, name, attributes }
     }
 }
 

@@ -10,6 +10,7 @@ mod read;
 pub(crate) use applied::{Applied, Prescribed, Prescription, alternatives};
 pub use read::ProfileError;
 
+use core::fmt;
 use core::ops::RangeInclusive;
 use edskit_model::Formula;
 use edskit_types::{AccessType, DataType, Index, NodeId, ObjectCode};
@@ -115,6 +116,15 @@ impl Expected {
         match self {
             Self::Number(number) => number.into(),
             Self::Formula(formula) => i128::from(formula.offset()) + i128::from(node_id.get()),
+        }
+    }
+}
+
+impl fmt::Display for Expected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => number.fmt(f),
+            Self::Formula(formula) => formula.fmt(f),
         }
     }
 }
