@@ -107,6 +107,14 @@ pub(crate) fn effective(sheet: &Datasheet, index: Index, sub_index: u8) -> Optio
     Effective::of(sheet.object(index)?, sub_index)
 }
 
+/// The device type at `index`, 1000h or that of a logical device. No configuration can change what a device is, so the
+/// DefaultValue comes first.
+pub(crate) fn device_type(sheet: &Datasheet, index: Index) -> Option<Effective<'_>> {
+    let object = sheet.object(index)?;
+    let field = object.default_value().or_else(|| object.parameter_value())?;
+    Effective::new(field, object.standard_type().unwrap_or(DataType::Unsigned64))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,6 +151,14 @@ mod tests {
         assert!(value(0x1800, 4).is_none() && value(0x1801, 1).is_none());
         let compact = [0, 1, 2].map(|sub_index| value(0x1A00, sub_index).unwrap().constant::<u32>());
         assert_eq!(compact, [Some(2), Some(5), Some(0x6000_0108)]);
+    }
+
+    #[test]
+    fn a_configuration_does_not_change_the_device_type() {
+        let text = b"[1000]\nDataType=7\nDefaultValue=0x192\nParameterValue=0\n[6FFF]\nDataType=7\nParameterValue=1\n";
+        let sheet = Datasheet::parse(text);
+        let number = |index| device_type(&sheet, Index(index)).and_then(Effective::constant::<u32>);
+        assert_eq!([number(0x1000), number(0x6FFF), number(0x67FF)], [Some(0x192), Some(1), None]);
     }
 
     #[test]

@@ -7,6 +7,7 @@
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
 mod context;
+mod described;
 mod evaluate;
 mod finding;
 mod fixer;

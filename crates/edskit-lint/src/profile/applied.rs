@@ -2,7 +2,7 @@
 
 use super::{Attributes, BUILT_IN, Profile, ProfileObject};
 use crate::Variable;
-use crate::evaluate::{Effective, effective};
+use crate::evaluate::{Effective, device_type};
 use edskit_model::Datasheet;
 use edskit_types::{AccessType, Index, NodeId, ObjectCode, SubIndex};
 use std::sync::LazyLock;
@@ -85,15 +85,15 @@ impl<'a> Application<'a> {
 /// first one.
 fn device_types(sheet: &Datasheet) -> Vec<(u16, Effective<'_>)> {
     let mut found = Vec::new();
-    let Some(device_type) = effective(sheet, Index::DEVICE_TYPE, 0) else { return found };
-    let first = match profile_number(device_type) {
-        Some(SEVERAL) => effective(sheet, FIRST_LOGICAL_DEVICE, 0),
-        _ => Some(device_type),
+    let Some(whole) = device_type(sheet, Index::DEVICE_TYPE) else { return found };
+    let first = match profile_number(whole) {
+        Some(SEVERAL) => device_type(sheet, FIRST_LOGICAL_DEVICE),
+        _ => Some(whole),
     };
     found.extend(first.map(|first| (0, first)));
     for number in 1..8 {
         let shift = number * STEP;
-        let further = effective(sheet, Index(FIRST_LOGICAL_DEVICE.0 + shift), 0);
+        let further = device_type(sheet, Index(FIRST_LOGICAL_DEVICE.0 + shift));
         found.extend(further.map(|further| (shift, further)));
     }
     found
@@ -164,6 +164,13 @@ impl<'a> Prescription<'a> {
 
     fn prescribed(self, name: &'a str, attributes: &'a Attributes) -> Prescribed<'a> {
         Prescribed { profile: self.profile, object: self.object, name, attributes }
+    }
+}
+
+impl<'a> Prescribed<'a> {
+    /// What the profile prescribes for another sub-index of the same object.
+    pub(crate) fn sibling(self, sub_index: SubIndex) -> Option<Prescribed<'a>> {
+        Prescription { profile: self.profile, object: self.object }.sub(sub_index)
     }
 }
 

@@ -7,12 +7,12 @@ mod applied;
 mod notation;
 mod read;
 
-pub(crate) use applied::{Applied, Prescribed, Prescription, alternatives};
+pub(crate) use applied::{Application, Applied, Prescribed, Prescription, alternatives, profile_number};
 pub use read::ProfileError;
 
 use core::fmt;
 use core::ops::RangeInclusive;
-use edskit_model::Formula;
+use edskit_model::{Datasheet, Formula};
 use edskit_types::{AccessType, DataType, Index, NodeId, ObjectCode};
 use std::sync::LazyLock;
 
@@ -73,6 +73,18 @@ pub(crate) struct ProfileObject {
     pub(crate) subs: Vec<ProfileSub>,
 }
 
+impl ProfileObject {
+    /// Whether the object at `index` is described, with a right object code and a right data type.
+    pub(crate) fn is_like(&self, sheet: &Datasheet, index: Index) -> bool {
+        sheet.object(index).is_some_and(|object| {
+            let data_type = object.data_type().and_then(|field| field.known()).map(Index);
+            let types = &self.attributes.types;
+            object.object_code().is_some_and(|code| self.codes.is_empty() || self.codes.contains(&code))
+                && data_type.is_none_or(|data_type| types.is_empty() || types.contains(&data_type))
+        })
+    }
+}
+
 /// What a profile prescribes for a sub-index, or for each of a range.
 #[derive(Clone, Debug)]
 pub(crate) struct ProfileSub {
@@ -83,7 +95,7 @@ pub(crate) struct ProfileSub {
 }
 
 /// What a profile prescribes for a value and the rights on it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct Attributes {
     /// The data types that it may have; empty where nothing is said.
     pub(crate) types: Vec<Index>,

@@ -1,32 +1,27 @@
-//! Elements of an ARRAY that share one defect get one finding.
+//! Sub-objects that share one defect get one finding.
 
+use crate::profile::Prescribed;
 use crate::{Context, Edit, Variable};
 use edskit_model::{Field, Span, SubObject};
-use edskit_types::{AccessType, ObjectCode};
+use edskit_types::AccessType;
 
-/// The further elements that are wrong in the same way as this variable; `None` where it is itself one of those that an
-/// earlier element is reported for. Only the elements of an ARRAY and the entries of a mapping are taken together.
+/// The further sub-objects for which the same is prescribed, and which are wrong in the same way as this variable;
+/// `None` where it is itself one of those that an earlier sub-object is reported for.
 pub(super) fn further<'a>(
     context: &Context<'a>,
     variable: &Variable<'a>,
+    prescribed: Prescribed<'a>,
     is_wrong_too: impl Fn(SubObject<'a>) -> bool,
 ) -> Option<Vec<SubObject<'a>>> {
-    let Some(own) = variable.sub_index.filter(|sub_index| (1..0xFF).contains(&sub_index.0)) else {
-        return Some(Vec::new());
-    };
-    let is_mapping = variable.index.is_rpdo_mapping() || variable.index.is_tpdo_mapping();
-    let is_array = |code: &[ObjectCode]| code.is_empty() || code.contains(&ObjectCode::Array);
-    if !is_mapping && !variable.prescriptions.iter().any(|prescription| is_array(&prescription.object.codes))
-    {
-        return Some(Vec::new());
-    }
+    let Some(own) = variable.sub_index else { return Some(Vec::new()) };
     let mut later = Vec::new();
-    for sub in context.sheet.object(variable.index)?.sub_objects() {
-        let sub_index = sub.sub_index();
-        if sub_index.0 == 0 || sub_index.0 == 0xFF || sub_index == own || !is_wrong_too(sub) {
+    for sub in context.sheet.object(variable.index).into_iter().flat_map(|object| object.sub_objects()) {
+        let sibling = prescribed.sibling(sub.sub_index());
+        let is_alike = sibling.is_some_and(|sibling| sibling.attributes == prescribed.attributes);
+        if sub.sub_index() == own || !is_alike || !is_wrong_too(sub) {
             continue;
         }
-        if sub_index < own {
+        if sub.sub_index() < own {
             return None;
         }
         later.push(sub);
@@ -34,16 +29,16 @@ pub(super) fn further<'a>(
     Some(later)
 }
 
-/// What a message says about the further elements: nothing, or ` (like 3 further elements)`.
+/// What a message says about the further sub-objects: nothing, or ` (like 3 further sub-indices)`.
 pub(super) fn like(further: &[SubObject<'_>]) -> String {
     match further.len() {
         0 => String::new(),
-        1 => " (like one further element)".to_owned(),
-        count => format!(" (like {count} further elements)"),
+        1 => " (like one further sub-index)".to_owned(),
+        count => format!(" (like {count} further sub-indices)"),
     }
 }
 
-/// Writes `access` here and at the further elements.
+/// Writes `access` here and at the further sub-objects.
 pub(super) fn rewrite(
     field: Field<'_, AccessType>,
     further: &[SubObject<'_>],

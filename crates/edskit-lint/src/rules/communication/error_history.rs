@@ -69,6 +69,8 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     }
     let Some(field) = variable.access_type else { return };
     let Some(access) = field.known() else { return };
+    // CiA 301 always prescribes something for it, unless it is a VAR, which is the matter of COM001.
+    let Some(prescribed) = variable.prescribed().next() else { return };
     let is_clearable = access.is_readable() && access.is_writable();
     let is_history = access.is_readable() && !access.is_writable();
     let (right, message) = match variable.sub_index {
@@ -86,7 +88,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         _ => return,
     };
     let is_wrong_too = |sub: SubObject<'_>| sub.access() == Some(access);
-    let Some(further) = elements::further(context, variable, is_wrong_too) else { return };
+    let Some(further) = elements::further(context, variable, prescribed, is_wrong_too) else { return };
     report
         .add(field.span(), format!("{message}{}", like(&further)))
         .help(format!("write `AccessType={right}`"))

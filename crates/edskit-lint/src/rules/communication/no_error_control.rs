@@ -1,3 +1,4 @@
+use crate::described::is_known;
 use crate::rule::rule;
 use crate::{Context, Report};
 use edskit_model::SectionKind;
@@ -56,13 +57,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let sheet = context.sheet;
     let Some(device_type) = sheet.object(Index::DEVICE_TYPE) else { return };
     let objects = [Index::PRODUCER_HEARTBEAT, GUARD_TIME, LIFE_TIME_FACTOR];
-    if objects.iter().any(|index| sheet.object(*index).is_some()) {
-        return;
-    }
-    let lists =
-        [SectionKind::MandatoryObjects, SectionKind::OptionalObjects, SectionKind::ManufacturerObjects];
-    let mut items = lists.into_iter().filter_map(|kind| sheet.section(kind)).flat_map(|list| list.items());
-    if items.any(|item| item.index.known().is_some_and(|index| objects.contains(&Index(index)))) {
+    if objects.iter().any(|index| is_known(sheet, *index)) {
         return;
     }
     let place = sheet.section(SectionKind::OptionalObjects).unwrap_or(device_type.section());

@@ -1,13 +1,14 @@
 use crate::evaluate::{effective, node_ids};
 use crate::rule::rule;
-use crate::{Context, Report};
+use crate::{Context, Report, Severity};
 use edskit_types::Index;
 
 rule! {
     /// A SYNC producer has no period
     ///
     /// ## What it does
-    /// Reports a 1005h whose bit 30 makes the device produce the SYNC message, if 1006h does not exist or is 0.
+    /// Reports a 1005h whose bit 30 makes the device produce the SYNC message, if 1006h does not exist, and, as an
+    /// information, if it is 0.
     ///
     /// ## Why is this bad
     /// Without a period the device sends no SYNC message. Every synchronous PDO in the network waits for it.
@@ -19,12 +20,6 @@ rule! {
     /// DataType=0x0007
     /// AccessType=rw
     /// DefaultValue=0x40000080
-    ///
-    /// [1006]
-    /// ParameterName=Communication cycle period
-    /// DataType=0x0007
-    /// AccessType=rw
-    /// DefaultValue=0
     /// ```
     ///
     /// ## Use instead
@@ -65,14 +60,19 @@ fn check(context: &Context<'_>, report: &mut Report) {
         return;
     }
     let period = effective(context.sheet, PERIOD, 0);
-    let what = match (context.sheet.object(PERIOD), period.and_then(|period| period.constant::<u32>())) {
-        (None, _) => "1006h does not exist",
-        (Some(_), Some(0)) => "the period in 1006h is 0",
-        _ => return,
-    };
+    let (severity, what) =
+        match (context.sheet.object(PERIOD), period.and_then(|period| period.constant::<u32>())) {
+            (None, _) => (Severity::Warning, "1006h does not exist"),
+            // A client can still set one.
+            (Some(_), Some(0)) => (Severity::Info, "the period in 1006h is 0"),
+            _ => return,
+        };
     let finding =
         report.add(cob_id.span(), format!("bit 30 of 1005h makes the device a SYNC producer, but {what}"));
-    finding.here("bit 30 is 1").help("give 1006h a period in µs, or clear bit 30 of 1005h");
+    finding
+        .severity(severity)
+        .here("bit 30 is 1")
+        .help("give 1006h a period in µs, or clear bit 30 of 1005h");
     if let Some(period) = period {
         finding.label(period.span(), "no SYNC message is sent");
     }
@@ -94,7 +94,7 @@ mod tests {
         );
         assert_eq!(
             found("0x40000080", "[1006]\nDataType=7\nDefaultValue=0x0\n"),
-            ["3:14 warning: bit 30 of 1005h makes the device a SYNC producer, but the period in 1006h is 0"]
+            ["3:14 info: bit 30 of 1005h makes the device a SYNC producer, but the period in 1006h is 0"]
         );
         assert!(found("0x40000080", "[1006]\nDataType=7\n").is_empty());
         assert!(found("0x40000080", "[1006]\nDataType=7\nDefaultValue=1000\n").is_empty());

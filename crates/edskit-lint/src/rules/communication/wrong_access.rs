@@ -60,7 +60,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         }
         let allowed = &prescribed.attributes.access;
         let is_wrong_too = |sub: SubObject<'_>| sub.access() == Some(access);
-        let Some(further) = elements::further(context, variable, is_wrong_too) else { return };
+        let Some(further) = elements::further(context, variable, prescribed, is_wrong_too) else { return };
         let message = format!(
             "{} ({}) is `{access}`, but {} prescribes {}{}",
             variable.place(),
@@ -104,7 +104,7 @@ mod tests {
         assert_eq!(
             findings(&WRONG_ACCESS, text),
             [
-                "6:12 warning: 1010h sub-index 01h (save all parameters) is `ro`, but CiA 301 prescribes `rw` (like one further element)"
+                "6:12 warning: 1010h sub-index 01h (save all parameters) is `ro`, but CiA 301 prescribes `rw` (like one further sub-index)"
             ]
         );
         assert_eq!(

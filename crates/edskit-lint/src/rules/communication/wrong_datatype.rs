@@ -60,7 +60,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
             continue;
         }
         let is_wrong_too = |sub: SubObject<'_>| sub.data_type().and_then(Field::known) == Some(data_type.0);
-        let Some(further) = elements::further(context, variable, is_wrong_too) else { return };
+        let Some(further) = elements::further(context, variable, prescribed, is_wrong_too) else { return };
         let message = format!(
             "{} ({}) is {}, but {} prescribes {}{}",
             variable.place(),
@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(
             findings(&WRONG_DATATYPE, &text),
             [
-                "8:10 error: 1010h sub-index 02h (store parameters) is UNSIGNED16, but CiA 301 prescribes UNSIGNED32 (like 2 further elements)",
+                "8:10 error: 1010h sub-index 02h (store parameters) is UNSIGNED16, but CiA 301 prescribes UNSIGNED32 (like 2 further sub-indices)",
                 "14:10 error: 1010h sub-index 05h (store parameters) is INTEGER32, but CiA 301 prescribes UNSIGNED32"
             ]
         );
