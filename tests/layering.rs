@@ -18,7 +18,7 @@ use Libraries::{Any, Only};
 const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-types", &[], Only(&[])),
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
-    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde"])),
+    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde", "toml"])),
     ("edskit", &["edskit-types", "edskit-model", "edskit-lint"], Any),
     ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint"], Any),
     ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint"], Any),

@@ -5,6 +5,7 @@ mod explain;
 mod fix;
 mod help;
 mod lint;
+mod profiles;
 mod settings;
 mod show;
 

@@ -9,6 +9,7 @@ mod files;
 mod generated;
 mod lint;
 mod positions;
+mod profiles;
 mod settings;
 mod show;
 mod streams;

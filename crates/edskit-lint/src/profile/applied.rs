@@ -127,8 +127,8 @@ static HIGHEST_SUB_INDEX: LazyLock<Attributes> =
     LazyLock::new(|| Attributes { access: vec![AccessType::Ro], ..Attributes::default() });
 
 impl<'a> Prescription<'a> {
-    /// What is prescribed for a variable of the object. A VAR that should be an ARRAY, or the reverse, is not looked at
-    /// any closer.
+    /// What is prescribed for a variable of the object. What has a wrong object code, VAR instead of ARRAY or
+    /// DOMAIN, say, is not looked at any closer.
     pub(crate) fn of(self, variable: &Variable<'_>) -> Option<Prescribed<'a>> {
         let codes = &self.object.codes;
         let may_be =
@@ -140,7 +140,7 @@ impl<'a> Prescription<'a> {
                 Some(self.prescribed(&self.object.name, &self.object.attributes))
             }
             None if variable.is_compact() && may_be(ObjectCode::has_sub_objects) => self.sub(SubIndex(1)),
-            None if variable.holds_value() && may_be(|code| !code.has_sub_objects()) => {
+            None if variable.holds_value() && (codes.is_empty() || codes.contains(&variable.code?)) => {
                 Some(self.prescribed(&self.object.name, &self.object.attributes))
             }
             _ => None,

@@ -113,6 +113,14 @@ impl Attributes {
         let rights = |access: AccessType| (access.is_readable(), access.is_writable());
         self.access.is_empty() || self.access.iter().any(|allowed| rights(*allowed) == rights(access))
     }
+
+    /// Whether a number is one of the values at a node-ID.
+    pub(crate) fn allows_value(&self, number: i128, node_id: NodeId) -> bool {
+        let holds = |range: &RangeInclusive<Expected>| {
+            (range.start().at(node_id)..=range.end().at(node_id)).contains(&number)
+        };
+        self.values.is_empty() || self.values.iter().any(holds)
+    }
 }
 
 /// A number that may depend on the node-ID.

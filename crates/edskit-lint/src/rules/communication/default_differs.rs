@@ -8,7 +8,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports a `DefaultValue` that differs from the one which CiA 301, the device profile named by 1000h, or a profile given
-    /// with `--profile` states. 1014h is left to COM009.
+    /// with `--profile` states. 1014h is left to COM009, and a value that is not allowed at all to COM008.
     ///
     /// ## Why is this bad
     /// Most such differences are choices. But a master that relies on the profile, and does not set the object, meets another
@@ -54,7 +54,12 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         let Some(expected) = prescribed.attributes.default else { continue };
         let data_type = variable.standard_type.unwrap_or(DataType::Unsigned64);
         let Some(value) = Effective::new(field, data_type) else { return };
-        let differs = |node_id| value.at(node_id).is_some_and(|number| number != expected.at(node_id));
+        // What is not even allowed is the matter of COM008.
+        let differs = |node_id| {
+            value.at(node_id).is_some_and(|number| {
+                number != expected.at(node_id) && prescribed.attributes.allows_value(number, node_id)
+            })
+        };
         if node_ids(context).any(differs) {
             let message = format!(
                 "the default value of {} ({}) is {}, but that of {} is {expected}",

@@ -68,10 +68,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
 fn wrong(context: &Context<'_>, prescribed: Prescribed<'_>, value: Effective<'_>) -> Option<i128> {
     node_ids(context).find_map(|node_id| {
         let number = value.at(node_id)?;
-        let mut values = prescribed.attributes.values.iter();
-        let allowed =
-            values.any(|range| (range.start().at(node_id)..=range.end().at(node_id)).contains(&number));
-        (!allowed).then_some(number)
+        (!prescribed.attributes.allows_value(number, node_id)).then_some(number)
     })
 }
 
