@@ -31,6 +31,7 @@ pub use topology::{Topology, TopologyNode};
 use crate::key::Key;
 use crate::section::SectionKind;
 use crate::{Document, Span};
+use core::ops::RangeInclusive;
 use edskit_types::{Index, SubIndex};
 use std::borrow::Cow;
 
@@ -158,6 +159,16 @@ impl Datasheet {
     #[inline]
     pub fn object(&self, index: Index) -> Option<Object<'_>> {
         self.object_position(index).map(|position| Object::new(self, position as u32))
+    }
+
+    /// The described objects with an index in `indices`, in ascending order.
+    pub fn objects_in(
+        &self,
+        indices: RangeInclusive<Index>,
+    ) -> impl ExactSizeIterator<Item = Object<'_>> + DoubleEndedIterator {
+        let first = self.objects.partition_point(|object| object.index < *indices.start());
+        let end = self.objects.partition_point(|object| object.index <= *indices.end());
+        (first as u32..end as u32).map(|position| Object::new(self, position))
     }
 
     /// All described sub-objects in ascending order, also those whose object is not described.

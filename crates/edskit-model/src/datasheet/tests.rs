@@ -74,6 +74,17 @@ fn objects_come_sorted_and_the_first_of_two_counts() {
 }
 
 #[test]
+fn objects_of_a_range_include_both_ends() {
+    let sheet = Datasheet::parse(b"[1400]\n[13FF]\n[1600]\n[15FF]\n[1401]\n");
+    let indices = |first, last| {
+        sheet.objects_in(Index(first)..=Index(last)).map(|object| object.index().0).collect::<Vec<_>>()
+    };
+    assert_eq!(indices(0x1400, 0x15FF), [0x1400, 0x1401, 0x15FF]);
+    assert_eq!(indices(0, 0xFFFF).len(), 5);
+    assert!(indices(0x2000, 0xFFFF).is_empty());
+}
+
+#[test]
 fn a_value_that_means_nothing_keeps_its_text_reason_and_place() {
     let sheet = Datasheet::parse(DEVICE.as_bytes());
     let vendor = sheet.sub_object(Index(0x1018), SubIndex(1)).unwrap();
