@@ -1,6 +1,8 @@
 //! What checks see, and where they report.
 
-use crate::{FileKind, Finding, Label, Rule};
+use crate::pdos::{self, DescribedPdo};
+use crate::{FileKind, Finding, Label, Neighbours, Rule};
+use core::cell::OnceCell;
 use edskit_model::{Datasheet, Description, Document, Field, Span, Value};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
@@ -12,9 +14,23 @@ pub struct Context<'a> {
     pub kind: FileKind,
     /// The file's own name without folders, where it has one.
     pub file_name: Option<&'a str>,
+    /// The files beside it, where the caller knows them.
+    pub neighbours: Option<&'a dyn Neighbours>,
+    /// The PDOs, once a rule has asked for them.
+    pdos: OnceCell<Vec<DescribedPdo<'a>>>,
 }
 
 impl<'a> Context<'a> {
+    /// A file to be linted.
+    pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
+        Self { sheet, kind, file_name, neighbours: None, pdos: OnceCell::new() }
+    }
+
+    /// The described PDOs, read once for all rules.
+    pub(crate) fn pdos(&self) -> &[DescribedPdo<'a>] {
+        self.pdos.get_or_init(|| pdos::read(self.sheet))
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()

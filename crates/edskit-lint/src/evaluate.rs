@@ -93,7 +93,7 @@ mod tests {
     use super::*;
 
     fn context<'a>(sheet: &'a Datasheet, kind: FileKind) -> Context<'a> {
-        Context { sheet, kind, file_name: None }
+        Context::new(sheet, kind, None)
     }
 
     fn numbers(text: &str, kind: FileKind) -> Vec<u8> {

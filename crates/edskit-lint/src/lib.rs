@@ -11,6 +11,8 @@ mod evaluate;
 mod finding;
 mod inline_comment;
 mod linter;
+mod neighbours;
+mod pdos;
 mod rule;
 mod rule_set;
 pub mod rules;
@@ -21,6 +23,7 @@ mod testing;
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use linter::Linter;
+pub use neighbours::Neighbours;
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
     ObjectCheck, Rule, SectionCheck, VariableCheck,

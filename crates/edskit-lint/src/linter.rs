@@ -3,7 +3,7 @@
 use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
-use crate::{Check, FileKind, Finding, RuleSet};
+use crate::{Check, FileKind, Finding, Neighbours, RuleSet};
 use edskit_model::Datasheet;
 
 /// Runs a set of rules over files.
@@ -56,14 +56,30 @@ impl Linter {
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
     /// finding that says what it is.
     pub fn lint(&self, sheet: &Datasheet, kind: FileKind, file_name: Option<&str>) -> Vec<Finding> {
-        let context = Context { sheet, kind, file_name };
+        self.lint_context(&Context::new(sheet, kind, file_name))
+    }
+
+    /// The same for a file whose neighbours are known, so that checks across files run too.
+    pub fn lint_among(
+        &self,
+        sheet: &Datasheet,
+        kind: FileKind,
+        file_name: Option<&str>,
+        neighbours: &dyn Neighbours,
+    ) -> Vec<Finding> {
+        let mut context = Context::new(sheet, kind, file_name);
+        context.neighbours = Some(neighbours);
+        self.lint_context(&context)
+    }
+
+    fn lint_context(&self, context: &Context<'_>) -> Vec<Finding> {
         let mut report = Report::new(&NOT_CANOPEN);
-        if not_canopen::is_foreign(&context) {
+        if not_canopen::is_foreign(context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {
-                not_canopen::check(&context, &mut report);
+                not_canopen::check(context, &mut report);
             }
         } else {
-            walk(&context, &self.checks(kind), &mut report);
+            walk(context, &self.checks(context.kind), &mut report);
         }
         let mut findings = report.into_findings();
         self.rules.apply_severities(&mut findings);
