@@ -4,7 +4,7 @@ use crate::evaluate::Effective;
 use core::fmt;
 use edskit_model::{Datasheet, DictionaryEntry, Object, Pdo, Section};
 use edskit_types::{
-    CobId, DataType, Index, MappingEntry, NodeId, PdoDirection, SubIndex, Transmission, TransmissionType,
+    CobId, DataType, MappingEntry, NodeId, PdoDirection, SubIndex, Transmission, TransmissionType,
 };
 
 /// The most entries of one mapping.
@@ -110,11 +110,6 @@ impl<'a> DescribedPdo<'a> {
         let number = self.transmission_type?.constant().map(TransmissionType)?;
         Some(number.meaning(self.direction))
     }
-
-    /// The section that comes first in the dictionary.
-    pub(crate) fn section(&self) -> Option<Section<'a>> {
-        self.communication.or(self.mapping).map(|object| object.section())
-    }
 }
 
 /// `RPDO1`, `TPDO12`.
@@ -146,14 +141,6 @@ impl<'a> Target<'a> {
 }
 
 impl<'a> Mapped<'a> {
-    /// The dictionary entry that is mapped.
-    pub(crate) fn target_entry(&self) -> Option<DictionaryEntry<'a>> {
-        match self.target {
-            Target::Entry(entry) => Some(entry),
-            _ => None,
-        }
-    }
-
     /// The data type of what is mapped, if CiA 301 defines it.
     pub(crate) fn data_type(&self) -> Option<DataType> {
         match self.target {
@@ -169,6 +156,14 @@ pub(crate) fn attributes<'a>(sheet: &'a Datasheet, entry: DictionaryEntry<'a>) -
     match entry.description() {
         Some(description) => Some(description.section()),
         None => sheet.object(entry.index).map(|object| object.section()),
+    }
+}
+
+/// `1 bit`, `8 bits`.
+pub(crate) fn bits(count: impl Into<u32>) -> String {
+    match count.into() {
+        1 => "1 bit".to_owned(),
+        count => format!("{count} bits"),
     }
 }
 

@@ -1,6 +1,6 @@
 use crate::pdos::{self, DescribedPdo, Mapped, Target};
 use crate::rule::rule;
-use crate::{Context, Report};
+use crate::{Context, Report, Severity};
 use edskit_types::PdoDirection;
 use std::collections::HashMap;
 
@@ -8,8 +8,9 @@ rule! {
     /// An object is mapped twice
     ///
     /// ## What it does
-    /// Reports an object that stands twice in the mapping of one PDO, or in the mappings of two RPDOs that are both in
-    /// use. Two TPDOs may carry the same object.
+    /// Reports an object that stands twice in the mapping of one PDO, and as an information one that stands in the
+    /// mappings of two RPDOs that are both in use; profiles such as CiA 402 define several RPDOs of which a master uses
+    /// one. Two TPDOs may carry the same object.
     ///
     /// ## Why is this bad
     /// Two places of an RPDO, or two RPDOs, write the same object, and which value stays depends on the order in which
@@ -99,6 +100,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
                 Some((other, first)) => {
                     report
                         .add(mapped.value.span(), format!("{pdo} and {other} both write {}", place()))
+                        .severity(Severity::Info)
                         .here(format!("entry {} of {pdo}", mapped.sub_index.0))
                         .label(first.value.span(), format!("entry {} of {other}", first.sub_index.0))
                         .help("take it out of one of the two, or switch one of them off with bit 31 of its COB-ID");
@@ -137,7 +139,7 @@ mod tests {
         let second = |cob_id| format!("{first}{}{OBJECT}", pdo(0x1401, cob_id, &["0x60400010"]));
         assert_eq!(
             findings(&DOUBLE_MAPPING, &second("$NODEID+0x300")),
-            ["26:14 warning: RPDO2 and RPDO1 both write 6040h"]
+            ["26:14 info: RPDO2 and RPDO1 both write 6040h"]
         );
         assert!(findings(&DOUBLE_MAPPING, &second("$NODEID+0x80000300")).is_empty());
         let sent =

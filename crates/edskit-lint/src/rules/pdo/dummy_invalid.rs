@@ -1,5 +1,5 @@
 use super::dummy;
-use crate::pdos::Target;
+use crate::pdos::{self, Target};
 use crate::rule::rule;
 use crate::{Context, Report};
 use edskit_types::PdoDirection;
@@ -85,8 +85,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
                     ),
                     Some(bits) if bits != u16::from(entry.bits()) => (
                         format!(
-                            "{pdo} maps {} bits of the data type {data_type}, which has {bits}",
-                            entry.bits()
+                            "{pdo} maps {} of the data type {data_type}, which has {bits}",
+                            pdos::bits(entry.bits())
                         ),
                         format!("write `0x{:04X}00{bits:02X}`", entry.index().0),
                     ),

@@ -6,7 +6,7 @@ rule! {
     /// A mapping entry is set, but not counted
     ///
     /// ## What it does
-    /// Reports entries other than 0 behind those that sub-index 00h of a mapping parameter counts. A sub-index 00h of
+    /// Reports entries other than 0 and dummies behind those that sub-index 00h of a mapping parameter counts. A sub-index 00h of
     /// 0, a mapping that is switched off, may have entries.
     ///
     /// ## Why is this bad
@@ -68,7 +68,8 @@ rule! {
 fn check(context: &Context<'_>, report: &mut Report) {
     for pdo in context.pdos() {
         let Some(count) = pdo.mapped_count().filter(|count| *count > 0) else { continue };
-        let mut set = pdo.leftover().iter().filter(|entry| !matches!(entry.target, Target::Zero));
+        let mut set =
+            pdo.leftover().iter().filter(|entry| !matches!(entry.target, Target::Zero | Target::Dummy));
         let Some(first) = set.next() else { continue };
         let last = set.next_back().unwrap_or(first);
         let which = if first.sub_index == last.sub_index {
@@ -76,7 +77,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
         } else {
             format!("entries {} to {} of {pdo} are set", first.sub_index.0, last.sub_index.0)
         };
-        let finding = report.add(first.value.span(), format!("{which}, but only {count} are mapped"));
+        let are = if count == 1 { "is" } else { "are" };
+        let finding = report.add(first.value.span(), format!("{which}, but only {count} {are} mapped"));
         if let Some(value) = pdo.count {
             finding.label(value.span(), "the number of mapped entries");
         }
@@ -91,7 +93,7 @@ mod tests {
 
     fn found(count: &str) -> Vec<String> {
         let mut text = format!("[1600]\nObjectType=9\n[1600sub0]\nDataType=5\nDefaultValue={count}\n");
-        for (sub, entry) in ["0x20000010", "0x20010010", "0", "0x20020010"].iter().enumerate() {
+        for (sub, entry) in ["0x20000010", "0x20010010", "0", "0x20020010", "0x00050008"].iter().enumerate() {
             text += &format!("[1600sub{}]\nDataType=7\nDefaultValue={entry}\n", sub + 1);
         }
         findings(&LEFTOVER_ENTRY, &text)
@@ -99,7 +101,7 @@ mod tests {
 
     #[test]
     fn a_mapping_that_is_off_may_have_entries() {
-        assert_eq!(found("1"), ["11:14 info: entries 2 to 4 of RPDO1 are set, but only 1 are mapped"]);
+        assert_eq!(found("1"), ["11:14 info: entries 2 to 4 of RPDO1 are set, but only 1 is mapped"]);
         assert_eq!(found("3"), ["17:14 info: entry 4 of RPDO1 is set, but only 3 are mapped"]);
         assert!(found("0").is_empty() && found("4").is_empty() && found("").is_empty());
     }

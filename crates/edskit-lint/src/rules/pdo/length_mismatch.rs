@@ -1,14 +1,15 @@
 use crate::pdos::{self, Target};
 use crate::rule::rule;
-use crate::{Context, Edit, Report};
-use edskit_types::MappingEntry;
+use crate::{Context, Edit, Report, Severity};
+use edskit_types::{DataType, MappingEntry};
 
 rule! {
     /// A mapping entry has another length than the mapped object
     ///
     /// ## What it does
     /// Compares the length in a mapping entry (its lowest eight bits) with the data type of the object that it names.
-    /// Strings and types of the manufacturer have no length to compare with; dummies are the matter of PDO009.
+    /// Strings and types of the manufacturer have no length to compare with; dummies are the matter of PDO009. A
+    /// BOOLEAN mapped with 8 bits is a warning: some device stacks map whole bytes only.
     ///
     /// ## Why is this bad
     /// The device refuses the mapping, or all that follows in the PDO is read from the wrong place.
@@ -76,18 +77,21 @@ fn check(context: &Context<'_>, report: &mut Report) {
                 continue;
             }
             let message = format!(
-                "{pdo} maps {} bits of {}, but {data_type} has {bits}",
-                mapped.entry.bits(),
+                "{pdo} maps {} of {}, but {data_type} has {bits}",
+                pdos::bits(mapped.entry.bits()),
                 pdos::place_of(context.sheet, entry)
             );
             let finding = report.add(mapped.value.span(), message);
+            if data_type == DataType::Boolean && mapped.entry.bits() == 8 {
+                finding.severity(Severity::Warning);
+            }
             finding.here(format!("entry {} of the mapping", mapped.sub_index.0));
             if let Some(section) = pdos::attributes(context.sheet, entry) {
                 finding.label(section.span(), format!("this is {data_type}"));
             }
             let right = MappingEntry(mapped.entry.0 & !0xFF | u32::from(bits));
             finding.help(format!("write `0x{:08X}`", right.0)).unsafe_fix(
-                format!("Map {bits} bits"),
+                format!("Map {}", pdos::bits(bits)),
                 vec![Edit::replace(mapped.value.span(), format!("0x{:08X}", right.0))],
             );
         }
@@ -118,6 +122,10 @@ mod tests {
             assert!(findings(&LENGTH_MISMATCH, &text("0x20000010", object)).is_empty(), "{object}");
         }
         assert!(findings(&LENGTH_MISMATCH, &text("0x00050010", "")).is_empty());
+        assert_eq!(
+            findings(&LENGTH_MISMATCH, &text("0x20000008", "[2000]\nDataType=1")),
+            ["8:14 warning: RPDO1 maps 8 bits of 2000h, but BOOLEAN has 1"]
+        );
     }
 
     #[test]

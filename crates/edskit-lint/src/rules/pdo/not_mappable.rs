@@ -1,14 +1,15 @@
+use super::unmappable_type::fits_no_pdo;
 use crate::pdos::{self, Target};
 use crate::rule::rule;
-use crate::{Context, Edit, Report};
+use crate::{Context, Edit, Report, Severity};
 use edskit_model::KeyName;
 
 rule! {
     /// A mapped object cannot be mapped
     ///
     /// ## What it does
-    /// Reports a mapping entry that names an object with `PDOMapping=0`, or without `PDOMapping`, which means the
-    /// same.
+    /// Reports a mapping entry that names an object with `PDOMapping=0`. Without `PDOMapping`, which means the same,
+    /// it is a warning.
     ///
     /// ## Why is this bad
     /// The two contradict each other. A configuration tool refuses its own default mapping, or writes it and the
@@ -73,7 +74,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for pdo in context.pdos() {
         for mapped in pdo.mapped() {
             let Target::Entry(entry) = mapped.target else { continue };
-            if entry.is_mappable() {
+            // What fits no PDO is the matter of PDO019, whatever it says.
+            if entry.is_mappable() || entry.data_type().is_some_and(fits_no_pdo) {
                 continue;
             }
             let Some(section) = pdos::attributes(context.sheet, entry) else { continue };
@@ -96,6 +98,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
                     .label(section.span(), "sub-index 00h of compact storage")
                     .help("map another object"),
                 None => finding
+                    .severity(Severity::Warning)
                     .label(section.span(), "has no `PDOMapping`, which means 0")
                     .help("add `PDOMapping=1` there if the device can map it, or map another object"),
             };
@@ -116,8 +119,11 @@ mod tests {
 
     #[test]
     fn a_missing_flag_is_0() {
-        let expected = ["8:14 error: RPDO1 maps 2000h, which cannot be mapped"];
-        assert_eq!(findings(&NOT_MAPPABLE, &text("PDOMapping=0")), expected);
+        assert_eq!(
+            findings(&NOT_MAPPABLE, &text("PDOMapping=0")),
+            ["8:14 error: RPDO1 maps 2000h, which cannot be mapped"]
+        );
+        let expected = ["8:14 warning: RPDO1 maps 2000h, which cannot be mapped"];
         assert_eq!(findings(&NOT_MAPPABLE, &text("")), expected);
         assert_eq!(findings(&NOT_MAPPABLE, &text("PDOMapping=")), expected);
         assert!(findings(&NOT_MAPPABLE, &text("PDOMapping=1")).is_empty());

@@ -1,12 +1,13 @@
 use crate::pdos::Target;
 use crate::rule::rule;
-use crate::{Context, Report};
+use crate::{Context, Report, Severity};
 
 rule! {
     /// A counted mapping entry is 0
     ///
     /// ## What it does
-    /// Reports an entry of 0 among those that sub-index 00h of a mapping parameter counts.
+    /// Reports an entry of 0 among those that sub-index 00h of a mapping parameter counts. It is a warning where the
+    /// PDO is not in use.
     ///
     /// ## Why is this bad
     /// The entry names no object. Devices refuse such a mapping, and tools stop decoding the PDO there.
@@ -77,7 +78,10 @@ fn check(context: &Context<'_>, report: &mut Report) {
         };
         let used = pdo.mapped().iter().rposition(|entry| !matches!(entry.target, Target::Zero));
         let used = used.map_or(0, |position| pdo.mapped()[position].sub_index.0);
-        let finding = report.add(first.value.span(), format!("{which}, but {number} are mapped"));
+        let finding = report.add(first.value.span(), format!("{which}, but the mapping has {number}"));
+        if pdo.is_valid() != Some(true) {
+            finding.severity(Severity::Warning);
+        }
         finding.label(count.span(), "the number of mapped entries");
         if used < first.sub_index.0 {
             finding.help(format!("write {used} there, or name an object here"));
@@ -92,8 +96,10 @@ mod tests {
     use super::*;
     use crate::testing::findings;
 
-    fn found(count: &str, entries: &[&str]) -> Vec<String> {
-        let mut text = format!("[1600]\nObjectType=9\n[1600sub0]\nDataType=5\nDefaultValue={count}\n");
+    fn found(cob_id: &str, count: &str, entries: &[&str]) -> Vec<String> {
+        let mut text = format!(
+            "[1400]\nObjectType=9\n[1400sub1]\nDataType=7\nDefaultValue={cob_id}\n[1600]\nObjectType=9\n[1600sub0]\nDataType=5\nDefaultValue={count}\n"
+        );
         for (sub, entry) in entries.iter().enumerate() {
             text += &format!("[1600sub{}]\nDataType=7\nDefaultValue={entry}\n", sub + 1);
         }
@@ -103,13 +109,15 @@ mod tests {
     #[test]
     fn only_what_is_counted_must_name_something() {
         assert_eq!(
-            found("2", &["0x20000010", "0x0"]),
-            ["11:14 error: entry 2 of RPDO1 is 0, but 2 are mapped"]
+            found("0x80000200", "2", &["0x20000010", "0x0"]),
+            ["16:14 warning: entry 2 of RPDO1 is 0, but the mapping has 2"]
         );
         assert_eq!(
-            found("3", &["0", "0", "0"]),
-            ["8:14 error: entries 1 to 3 of RPDO1 are 0, but 3 are mapped"]
+            found("0x205", "3", &["0", "0", "0"]),
+            ["13:14 error: entries 1 to 3 of RPDO1 are 0, but the mapping has 3"]
         );
-        assert!(found("1", &["0x20000010", "0"]).is_empty() && found("", &["0"]).is_empty());
+        assert!(
+            found("0x205", "1", &["0x20000010", "0"]).is_empty() && found("0x205", "", &["0"]).is_empty()
+        );
     }
 }
