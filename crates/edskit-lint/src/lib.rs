@@ -25,7 +25,7 @@ pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use linter::Linter;
 pub use neighbours::Neighbours;
 pub use rule::{
-    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
+    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck, NODE_LISTS,
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};

@@ -46,6 +46,10 @@ pub(crate) fn lint(rule: &'static Rule, file_name: &str, sheet: &Datasheet) -> V
 pub(crate) struct Folder(HashMap<String, Rc<Datasheet>>);
 
 impl Folder {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The folder with one file more.
     pub(crate) fn with(mut self, name: &str, text: &str) -> Self {
         self.0.insert(name.to_owned(), Rc::new(Datasheet::parse(text.as_bytes())));

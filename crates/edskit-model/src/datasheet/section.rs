@@ -1,6 +1,6 @@
 //! One section and its entries.
 
-use super::{Datasheet, Entry, Field, SectionRecord};
+use super::{Datasheet, Description, Entry, Field, SectionRecord};
 use crate::key::KeyName;
 use crate::section::SectionKind;
 use crate::{Line, Span};
@@ -36,6 +36,11 @@ impl<'a> Section<'a> {
     #[inline]
     pub fn kind(self) -> SectionKind {
         self.record().kind
+    }
+
+    /// The attributes, where the section describes an object or a sub-object, of the device or of a module.
+    pub fn description(self) -> Option<Description<'a>> {
+        self.kind().is_description().then_some(Description { section: self })
     }
 
     /// Its header's line in the document, counted from 0.

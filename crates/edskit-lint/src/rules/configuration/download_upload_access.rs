@@ -83,18 +83,16 @@ fn check(context: &Context<'_>, entry: Entry<'_>, report: &mut Report) {
 }
 
 /// The object or sub-object that an entry describes, and what messages call it.
-fn owner<'a>(context: &Context<'a>, entry: Entry<'_>) -> Option<(String, Description<'a>)> {
+fn owner<'a>(context: &Context<'_>, entry: Entry<'a>) -> Option<(String, Description<'a>)> {
     let section = entry.section()?;
-    let (place, description) = match section.kind() {
-        SectionKind::Object(index) => (index.to_string(), context.sheet.object(index)?.description()),
-        SectionKind::SubObject(index, sub_index) => {
-            let sub = context.sheet.sub_object(index, sub_index)?;
-            (format!("{index} sub-index {sub_index}"), sub.description())
-        }
+    let place = match section.kind() {
+        SectionKind::Object(index) => index.to_string(),
+        SectionKind::SubObject(index, sub_index) => format!("{index} sub-index {sub_index}"),
         _ => return None,
     };
     // Of doubled sections the first one counts.
-    (description.section().id() == section.id()).then_some((place, description))
+    let first = context.sheet.section(section.kind())?;
+    Some((place, section.description()?)).filter(|_| first.id() == section.id())
 }
 
 #[cfg(test)]
