@@ -4,6 +4,7 @@ mod bad_input;
 mod explain;
 mod help;
 mod lint;
+mod neighbours;
 mod show;
 
 use edskit::{Exit, Streams};

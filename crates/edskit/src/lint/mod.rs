@@ -1,6 +1,7 @@
 //! `edskit lint`.
 
 mod concise;
+mod folder;
 mod github;
 mod human;
 mod json;
@@ -16,6 +17,7 @@ use crate::positions::Located;
 use crate::{Exit, Streams};
 use edskit_lint::{FileKind, Linter, RuleSet, UnknownRule};
 use edskit_model::{Datasheet, Document};
+use folder::Folder;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
 use report::{FileReport, Outcome, Report};
@@ -113,7 +115,10 @@ fn lint_file(linter: &Linter, input: &Input, arguments: &LintArguments, style: h
     };
     let sheet = Datasheet::new(Document::from_vec(bytes));
     let own_name = name.rsplit('/').next();
-    let findings = linter.lint(&sheet, kind, own_name);
+    let findings = match input {
+        Input::File(path) => linter.lint_among(&sheet, kind, own_name, &Folder::of(path)),
+        Input::Stdin(_) => linter.lint(&sheet, kind, own_name),
+    };
     // Excerpts need the text, which is gone once the file is done.
     let excerpts = if arguments.format == LintFormat::Human && !arguments.statistics {
         human::excerpts(&name, &sheet, &findings, style)
