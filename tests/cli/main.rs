@@ -3,8 +3,10 @@
 mod bad_input;
 mod explain;
 mod help;
+mod fix;
 mod lint;
 mod neighbours;
+mod settings;
 mod show;
 
 use edskit::{Exit, Streams};

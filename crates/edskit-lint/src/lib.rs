@@ -9,6 +9,7 @@
 mod context;
 mod evaluate;
 mod finding;
+mod fixer;
 mod inline_comment;
 mod linter;
 mod neighbours;
@@ -17,11 +18,13 @@ mod rule;
 mod rule_set;
 pub mod rules;
 mod similar;
+mod suppression;
 #[cfg(test)]
 mod testing;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
+pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
 pub use neighbours::Neighbours;
 pub use rule::{

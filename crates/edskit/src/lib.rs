@@ -3,11 +3,13 @@
 //! This is the only crate of the desk half that opens files, knows a terminal and knows JSON.
 
 mod cli;
+mod difference;
 mod explain;
 mod files;
 mod generated;
 mod lint;
 mod positions;
+mod settings;
 mod show;
 mod streams;
 

@@ -61,13 +61,13 @@ fn check(context: &Context<'_>, report: &mut Report) {
                 )
                 .help("describe the modules, or take 1027h out");
         }
-        (None, Some(section)) => {
-            // Only a number that is surely 0 says that there are no modules.
-            if context.sheet.supported_modules().and_then(|field| field.known()) != Some(0) {
-                report.add(section.span(), "the device has modules, but no module list 1027h").help(
-                    "describe 1027h, an ARRAY of UNSIGNED16 with an element for each place of a module",
-                );
-            }
+        // Only a number that is surely 0 says that there are no modules.
+        (None, Some(section))
+            if context.sheet.supported_modules().and_then(|field| field.known()) != Some(0) =>
+        {
+            report
+                .add(section.span(), "the device has modules, but no module list 1027h")
+                .help("describe 1027h, an ARRAY of UNSIGNED16 with an element for each place of a module");
         }
         _ => {}
     }
