@@ -2,7 +2,7 @@ use super::parameters::{self, Parameter};
 use crate::evaluate::{commissioned, node_ids};
 use crate::rule::rule;
 use crate::{Context, Report, Severity};
-use edskit_types::{CanId, Claim, IdentifierRules, NodeId, Opponent, Party, conflicts};
+use edskit_types::{CanId, Claim, IdentifierRules, NodeId, Opponent, Party, SdoRole, conflicts};
 use std::collections::HashMap;
 
 rule! {
@@ -11,7 +11,8 @@ rule! {
     /// ## What it does
     /// Compares the CAN-IDs of all messages in use: PDOs, SYNC, TIME, EMCY (its own and those it listens to), SDO
     /// channels, its heartbeat and those it monitors. Two RPDOs may share one. In an EDS only what collides at every
-    /// node-ID is reported.
+    /// node-ID is reported. An RPDO that listens to another message of its own device, and an SDO client of its own
+    /// server, are warnings: such values are there to be changed.
     ///
     /// ## Why is this bad
     /// Whoever receives such a frame cannot tell which of the two it is, and two nodes that send it at once destroy it.
@@ -95,7 +96,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
         if let Some(second) = values.get(&other).filter(|second| second.party != parameter.party) {
             finding.here(party.to_string()).label(second.value.span(), other.to_string());
         }
-        if party.is_rpdo() != other.is_rpdo() {
+        let is_client = |party| matches!(party, Party::Sdo { role: SdoRole::Client, .. });
+        if party.is_rpdo() != other.is_rpdo() || is_client(party) || is_client(other) {
             finding.severity(Severity::Warning);
         }
         finding.help("give one of the two another CAN-ID, or set bit 31 of the one that is not in use");
@@ -114,7 +116,9 @@ fn collisions(context: &Context<'_>, parameters: &[Parameter<'_>], node_id: Node
         let cob_id = parameter.used_at(node_id).filter(|cob_id| !cob_id.has_stray_bits())?;
         let is_restricted = IdentifierRules::CIA_301.restriction(cob_id.can_id()).is_some();
         let party = parameter.party;
-        (!(is_restricted && party.is_configurable())).then_some(Claim { can_id: cob_id.can_id(), party })
+        // Zeros stand for an SDO channel that nobody has set up.
+        (!(is_restricted && party.is_configurable()) && cob_id.can_id().raw() > 0)
+            .then_some(Claim { can_id: cob_id.can_id(), party })
     };
     let mut claims: Vec<Claim> = parameters.iter().filter_map(claim).collect();
     if claims.is_empty() {
@@ -179,7 +183,7 @@ mod tests {
         assert_eq!(
             found(text),
             [
-                "5:14 error: SDO client 1 request and SDO server request both have the CAN-ID 601h at node-ID 1"
+                "5:14 warning: SDO client 1 request and SDO server request both have the CAN-ID 601h at node-ID 1"
             ]
         );
     }

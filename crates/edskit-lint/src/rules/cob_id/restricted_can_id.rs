@@ -3,7 +3,7 @@ use super::parameters;
 use crate::evaluate::commissioned;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
-use edskit_types::{Party, PdoDirection};
+use edskit_types::{Party, PdoDirection, SdoMessage};
 
 rule! {
     /// A CAN-ID is restricted
@@ -11,7 +11,8 @@ rule! {
     /// ## What it does
     /// Reports a PDO, an EMCY or TIME message or an additional SDO server that is in use with a CAN-ID that CiA 301
     /// keeps free. The COB-IDs of an EDS are evaluated at node-ID 1 and 127; one that is restricted for some node-IDs
-    /// only is a warning. The SYNC message is the matter of COM005.
+    /// only is a warning, and so is an SDO server with zeros for COB-IDs, which nobody has set up. The SYNC message is
+    /// the matter of COM005.
     ///
     /// ## Why is this bad
     /// The range belongs to another service, such as NMT or the default SDO. On the bus the two disturb each other, and
@@ -64,6 +65,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
             continue;
         };
         let (party, value) = (parameter.party, parameter.value);
+        let is_empty_channel = matches!(party, Party::Sdo { .. }) && cob_id.0 == 0;
+        // Of a channel that nobody has set up, one of the two COB-IDs is enough.
+        if is_empty_channel && matches!(party, Party::Sdo { message: SdoMessage::Response, .. }) {
+            continue;
+        }
         let at = match value.depends_on_node_id() && commissioned(context).is_none() {
             true => format!(" at node-ID {node_id}"),
             false => String::new(),
@@ -71,7 +77,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
         let message =
             format!("{party} has the CAN-ID {}{at}, which is restricted: {restriction}", cob_id.can_id());
         let finding = report.add(value.span(), message);
-        if !always {
+        if !always || is_empty_channel {
             finding.severity(Severity::Warning);
         }
         let is_tpdo = matches!(party, Party::Pdo { direction: PdoDirection::Transmit, .. });
@@ -80,8 +86,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
             finding
                 .help(format!("the node-ID is missing: write `{right}`"))
                 .unsafe_fix("Add the node-ID", vec![Edit::replace(value.span(), right)]);
-        } else if cob_id.can_id().raw() == 0 && matches!(party, Party::Pdo { .. } | Party::Emcy) {
-            finding.help(format!("write `0x80000000` if {party} is not in use"));
+        } else if cob_id.can_id().raw() == 0 && party != Party::Time {
+            finding.help("set bit 31, as in `0x80000000`, if it is not in use");
         } else {
             finding.help("choose a CAN-ID of 181h to 57Fh, or 680h to 6DFh");
         }
@@ -125,6 +131,7 @@ mod tests {
         {
             assert_eq!(found(index, value), "", "{index} {value}");
         }
+        assert!(found("1201", "0").starts_with("5:14 warning: SDO server 2 request has the CAN-ID 000h"));
         assert!(found("1201", "0x605").starts_with("5:14 error: SDO server 2 request has the CAN-ID 605h"));
     }
 }
