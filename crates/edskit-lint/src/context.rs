@@ -1,6 +1,7 @@
 //! What checks see, and where they report.
 
 use crate::pdos::{self, DescribedPdo};
+use crate::rules::cob_id::JudgedCobId;
 use crate::{FileKind, Finding, Label, Neighbours, Rule};
 use core::cell::OnceCell;
 use edskit_model::{Datasheet, Description, Document, Field, Span, Value};
@@ -18,17 +19,24 @@ pub struct Context<'a> {
     pub neighbours: Option<&'a dyn Neighbours>,
     /// The PDOs, once a rule has asked for them.
     pdos: OnceCell<Vec<DescribedPdo<'a>>>,
+    /// The COB-IDs, once a rule has asked for them.
+    cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
 }
 
 impl<'a> Context<'a> {
     /// A file to be linted.
     pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
-        Self { sheet, kind, file_name, neighbours: None, pdos: OnceCell::new() }
+        Self { sheet, kind, file_name, neighbours: None, pdos: OnceCell::new(), cob_ids: OnceCell::new() }
     }
 
     /// The described PDOs, read once for all rules.
     pub(crate) fn pdos(&self) -> &[DescribedPdo<'a>] {
         self.pdos.get_or_init(|| pdos::read(self.sheet))
+    }
+
+    /// The COB-IDs of messages besides SYNC and the default SDO channel, judged once for all rules.
+    pub(crate) fn cob_ids(&self) -> &[JudgedCobId<'a>] {
+        self.cob_ids.get_or_init(|| JudgedCobId::all(self))
     }
 
     /// The text.

@@ -2,7 +2,7 @@
 
 use crate::evaluate::Effective;
 use core::fmt;
-use edskit_model::{Datasheet, DictionaryEntry, Object, Pdo, Section};
+use edskit_model::{Datasheet, Description, DictionaryEntry, KeyName, Object, Pdo, Section};
 use edskit_types::{
     CobId, DataType, MappingEntry, NodeId, PdoDirection, SubIndex, Transmission, TransmissionType,
 };
@@ -55,21 +55,29 @@ pub(crate) enum Target<'a> {
     NoSubIndex(Object<'a>),
     /// An object that is not described.
     NoObject,
+    /// Something behind the mapped entries, which nobody looks up.
+    Leftover,
 }
 
 impl<'a> DescribedPdo<'a> {
     fn read(sheet: &'a Datasheet, pdo: Pdo<'a>) -> Self {
-        let parameter = |object: Option<Object<'a>>, sub_index| Effective::of(object?, sub_index);
-        Self {
+        let parameter = |object: Option<Object<'a>>, sub_index, data_type| {
+            number(object?.dictionary_entry(SubIndex(sub_index))?, data_type)
+        };
+        let mut read = Self {
             direction: pdo.direction,
             number: pdo.number,
             communication: pdo.communication,
             mapping: pdo.mapping,
-            cob_id: parameter(pdo.communication, 1),
-            transmission_type: parameter(pdo.communication, 2),
-            count: parameter(pdo.mapping, 0),
-            entries: pdo.mapping.map(|mapping| mapped(sheet, mapping)).unwrap_or_default(),
+            cob_id: parameter(pdo.communication, 1, DataType::Unsigned32),
+            transmission_type: parameter(pdo.communication, 2, DataType::Unsigned8),
+            count: parameter(pdo.mapping, 0, DataType::Unsigned8),
+            entries: Vec::new(),
+        };
+        if let Some(mapping) = pdo.mapping {
+            read.entries = mapped(sheet, mapping, read.mapped_count().unwrap_or(0));
         }
+        read
     }
 
     /// A parameter of the communication record.
@@ -140,7 +148,17 @@ impl<'a> Target<'a> {
     }
 }
 
-impl<'a> Mapped<'a> {
+impl Target<'_> {
+    fn of_leftover(entry: MappingEntry) -> Self {
+        match entry {
+            MappingEntry(0) => Self::Zero,
+            _ if entry.is_dummy() => Self::Dummy,
+            _ => Self::Leftover,
+        }
+    }
+}
+
+impl Mapped<'_> {
     /// The data type of what is mapped, if CiA 301 defines it.
     pub(crate) fn data_type(&self) -> Option<DataType> {
         match self.target {
@@ -184,18 +202,36 @@ pub(crate) fn read(sheet: &Datasheet) -> Vec<DescribedPdo<'_>> {
     pdos.map(|pdo| DescribedPdo::read(sheet, pdo)).collect()
 }
 
-fn mapped<'a>(sheet: &'a Datasheet, mapping: Object<'a>) -> Vec<Mapped<'a>> {
-    let entry = |sub_index: u8| {
-        let value = Effective::of(mapping, sub_index)?;
+/// The entries of a mapping parameter, of which `count` are mapped.
+fn mapped<'a>(sheet: &'a Datasheet, mapping: Object<'a>, count: u8) -> Vec<Mapped<'a>> {
+    let entry = |sub_index: SubIndex, value: Option<Effective<'a>>| {
+        let value = value?;
         let entry = MappingEntry(value.constant()?);
-        Some(Mapped { sub_index: SubIndex(sub_index), value, entry, target: Target::of(sheet, entry) })
+        let target = if sub_index.0 <= count { Target::of(sheet, entry) } else { Target::of_leftover(entry) };
+        Some(Mapped { sub_index, value, entry, target })
     };
-    let compact = mapping.compact_count();
-    if compact > 0 {
-        return (1..=MOST_ENTRIES).filter_map(entry).collect();
+    if mapping.compact_count() > 0 {
+        let value = |sub_index| number(mapping.dictionary_entry(sub_index)?, DataType::Unsigned32);
+        return (1..=MOST_ENTRIES).map(SubIndex).filter_map(|sub| entry(sub, value(sub))).collect();
     }
-    let subs = mapping.sub_objects().map(|sub| sub.sub_index().0);
-    subs.filter(|sub_index| (1..=MOST_ENTRIES).contains(sub_index)).filter_map(entry).collect()
+    let subs = mapping.sub_objects().filter(|sub| (1..=MOST_ENTRIES).contains(&sub.sub_index().0));
+    subs.filter_map(|sub| entry(sub.sub_index(), described_number(sub.description(), DataType::Unsigned32)))
+        .collect()
+}
+
+/// The number that an entry of the dictionary holds. CiA 301 fixes the data types of PDO parameters, so what the file
+/// says about them is not read (COM002 compares it).
+fn number<'a>(entry: DictionaryEntry<'a>, data_type: DataType) -> Option<Effective<'a>> {
+    match entry.description() {
+        Some(description) => described_number(description, data_type),
+        None => Effective::new(entry.value_field()?, data_type),
+    }
+}
+
+fn described_number<'a>(description: Description<'a>, data_type: DataType) -> Option<Effective<'a>> {
+    let configured = description.filled(KeyName::ParameterValue);
+    let entry = configured.or_else(|| description.filled(KeyName::DefaultValue))?;
+    Effective::new(entry.value(Some(data_type)), data_type)
 }
 
 #[cfg(test)]
@@ -219,7 +255,7 @@ mod tests {
         assert!(matches!(pdo.mapped()[2].target, Target::NoSubIndex(_)));
         assert!(matches!(pdo.mapped()[3].target, Target::Zero));
         assert_eq!(pdo.leftover().len(), 1);
-        assert!(matches!(pdo.leftover()[0].target, Target::NoObject));
+        assert!(matches!(pdo.leftover()[0].target, Target::Leftover));
     }
 
     #[test]

@@ -73,7 +73,8 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let mut parameters = parameters::all(context);
+    let mut parameters: Vec<Parameter<'_>> =
+        context.cob_ids().iter().map(|cob_id| cob_id.parameter).collect();
     parameters.extend(parameters::sync(context.sheet));
     let mut node_ids = node_ids(context);
     let Some(first) = node_ids.next() else { return };

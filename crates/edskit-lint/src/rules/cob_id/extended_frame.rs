@@ -1,5 +1,4 @@
-use super::judged::{Judgement, judge};
-use super::parameters;
+use super::judged::{JudgedCobId, Judgement};
 use crate::rule::rule;
 use crate::{Context, Report};
 
@@ -52,8 +51,8 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for parameter in parameters::all(context) {
-        let Some(Judgement::Extended(cob_id)) = judge(context, &parameter) else { continue };
+    for JudgedCobId { parameter, judgement } in context.cob_ids() {
+        let Some(Judgement::Extended(cob_id)) = *judgement else { continue };
         report
             .add(
                 parameter.value.span(),

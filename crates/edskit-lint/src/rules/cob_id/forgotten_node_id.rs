@@ -1,5 +1,4 @@
-use super::judged::{Judgement, judge};
-use super::parameters;
+use super::judged::{JudgedCobId, Judgement};
 use crate::evaluate::commissioned;
 use crate::rule::rule;
 use crate::{Context, Edit, FileKind, Report};
@@ -54,8 +53,8 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for parameter in parameters::all(context) {
-        let Some(Judgement::Bare(cob_id)) = judge(context, &parameter) else { continue };
+    for JudgedCobId { parameter, judgement } in context.cob_ids() {
+        let Some(Judgement::Bare(cob_id)) = *judgement else { continue };
         let can_id = cob_id.can_id();
         let finding = report.add(
             parameter.value.span(),

@@ -1,5 +1,5 @@
-use super::judged::{Judgement, judge};
-use super::parameters::{self, Parameter};
+use super::judged::{JudgedCobId, Judgement};
+use super::parameters::Parameter;
 use crate::evaluate::node_ids;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
@@ -54,9 +54,9 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for parameter in parameters::all(context) {
+    for JudgedCobId { parameter, judgement } in context.cob_ids() {
         let value = parameter.value;
-        if let Some(cob_id) = stray(context, &parameter) {
+        if let Some(cob_id) = stray(context, parameter, *judgement) {
             let bits = cob_id.0 & CobId::STRAY_MASK;
             let message = format!(
                 "{} has the COB-ID {cob_id}, whose bits {bits:08X}h belong to no 11-bit CAN-ID",
@@ -100,8 +100,12 @@ fn check(context: &Context<'_>, report: &mut Report) {
 }
 
 /// The COB-ID with stray bits, of a message in use or not.
-fn stray(context: &Context<'_>, parameter: &Parameter<'_>) -> Option<CobId> {
-    match judge(context, parameter) {
+fn stray(
+    context: &Context<'_>,
+    parameter: &Parameter<'_>,
+    judgement: Option<Judgement>,
+) -> Option<CobId> {
+    match judgement {
         Some(Judgement::Stray(cob_id)) => Some(cob_id),
         Some(_) => None,
         None => {

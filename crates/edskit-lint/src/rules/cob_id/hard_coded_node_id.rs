@@ -1,5 +1,4 @@
-use super::judged::{Judgement, judge};
-use super::parameters;
+use super::judged::{JudgedCobId, Judgement};
 use crate::rule::rule;
 use crate::{Context, Edit, FileKind, Report};
 
@@ -56,8 +55,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
     if context.kind != FileKind::Eds {
         return;
     }
-    for parameter in parameters::all(context) {
-        let Some(Judgement::OfNode { cob_id, node }) = judge(context, &parameter) else { continue };
+    for JudgedCobId { parameter, judgement } in context.cob_ids() {
+        let Some(Judgement::OfNode { cob_id, node }) = *judgement else { continue };
         let right = format!("$NODEID+0x{:X}", cob_id.0 - node);
         report
             .add(

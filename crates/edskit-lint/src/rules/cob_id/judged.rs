@@ -1,13 +1,13 @@
 //! What is wrong with a COB-ID, so that each defect has one rule.
 
-use super::parameters::Parameter;
+use super::parameters::{self, Parameter};
 use crate::Context;
 use crate::evaluate::node_ids;
 use edskit_types::{CobId, IdentifierRules, NodeId, Party, Restriction};
 
 /// The first thing that is wrong with the COB-ID of a message in use.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Judgement {
+pub(crate) enum Judgement {
     /// Bits that belong to no 11-bit CAN-ID (COB004).
     Stray(CobId),
     /// A 29-bit CAN-ID (COB005).
@@ -22,11 +22,25 @@ pub(super) enum Judgement {
     Fine(CobId),
 }
 
+/// A COB-ID parameter with what is wrong with it.
+pub(crate) struct JudgedCobId<'a> {
+    pub(super) parameter: Parameter<'a>,
+    /// `None` where the message is not in use or the COB-ID is not known.
+    pub(super) judgement: Option<Judgement>,
+}
+
+impl<'a> JudgedCobId<'a> {
+    pub(crate) fn all(context: &Context<'a>) -> Vec<Self> {
+        let judged = |parameter| Self { judgement: judge(context, &parameter), parameter };
+        parameters::all(context).into_iter().map(judged).collect()
+    }
+}
+
 /// The lowest and the highest base of the pre-defined connection set besides that of EMCY.
 const BASES: core::ops::RangeInclusive<u32> = 0x180..=0x600;
 
 /// Judges a COB-ID; `None` where the message is not in use or the COB-ID is not known.
-pub(super) fn judge(context: &Context<'_>, parameter: &Parameter<'_>) -> Option<Judgement> {
+fn judge(context: &Context<'_>, parameter: &Parameter<'_>) -> Option<Judgement> {
     let mut at = node_ids(context).filter_map(|node_id| Some((node_id, parameter.used_at(node_id)?)));
     let (_, first) = at.clone().next()?;
     if let Some((_, cob_id)) = at.find(|(_, cob_id)| cob_id.has_stray_bits()) {
@@ -77,7 +91,6 @@ fn restricted(context: &Context<'_>, parameter: &Parameter<'_>) -> Option<Judgem
 
 #[cfg(test)]
 mod tests {
-    use super::super::parameters;
     use super::*;
     use crate::FileKind;
     use edskit_model::Datasheet;
@@ -89,7 +102,7 @@ mod tests {
         };
         let sheet = Datasheet::parse(text.as_bytes());
         let context = Context::new(&sheet, FileKind::Eds, None);
-        parameters::all(&context).first().and_then(|parameter| judge(&context, parameter))
+        context.cob_ids().first().and_then(|cob_id| cob_id.judgement)
     }
 
     #[test]

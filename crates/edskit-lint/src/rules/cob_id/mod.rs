@@ -11,6 +11,8 @@ mod parameters;
 mod predefined_deviation;
 mod restricted_can_id;
 
+pub(crate) use judged::JudgedCobId;
+
 use crate::Rule;
 
 /// The rules of the group, sorted by code.

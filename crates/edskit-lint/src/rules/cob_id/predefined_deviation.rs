@@ -1,5 +1,4 @@
-use super::judged::{Judgement, judge};
-use super::parameters;
+use super::judged::{JudgedCobId, Judgement};
 use crate::rule::rule;
 use crate::{Context, FileKind, Report};
 use edskit_types::{NodeId, Party};
@@ -57,11 +56,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
     if context.kind != FileKind::Eds {
         return;
     }
-    for parameter in parameters::all(context) {
+    for JudgedCobId { parameter, judgement } in context.cob_ids() {
         if !matches!(parameter.party, Party::Pdo { .. }) {
             continue;
         }
-        let Some(Judgement::Fine(cob_id)) = judge(context, &parameter) else { continue };
+        let Some(Judgement::Fine(cob_id)) = *judgement else { continue };
         let (party, value) = (parameter.party, parameter.value);
         match party.predefined_can_id(NodeId::MIN) {
             Some(expected) if expected == cob_id.can_id() => {}

@@ -1,5 +1,4 @@
-use super::judged::{Judgement, judge};
-use super::parameters;
+use super::judged::{JudgedCobId, Judgement};
 use crate::evaluate::commissioned;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
@@ -59,8 +58,8 @@ rule! {
 const TPDO1: u32 = 0x180;
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for parameter in parameters::all(context) {
-        let Some(Judgement::Restricted { cob_id, node_id, restriction, always }) = judge(context, &parameter)
+    for JudgedCobId { parameter, judgement } in context.cob_ids() {
+        let Some(Judgement::Restricted { cob_id, node_id, restriction, always }) = *judgement
         else {
             continue;
         };

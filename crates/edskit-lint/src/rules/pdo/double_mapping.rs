@@ -2,7 +2,6 @@ use crate::pdos::{self, DescribedPdo, Mapped, Target};
 use crate::rule::rule;
 use crate::{Context, Report, Severity};
 use edskit_types::PdoDirection;
-use std::collections::HashMap;
 
 rule! {
     /// An object is mapped twice
@@ -74,41 +73,58 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    // The first place of what RPDOs in use write.
-    let mut written: HashMap<u32, (&DescribedPdo<'_>, &Mapped<'_>)> = HashMap::new();
     for pdo in context.pdos() {
-        let is_in_use = pdo.direction == PdoDirection::Receive && pdo.is_valid() == Some(true);
-        let mut inside: HashMap<u32, &Mapped<'_>> = HashMap::new();
-        for mapped in pdo.mapped() {
-            let Target::Entry(target) = mapped.target else { continue };
-            // Index and sub-index; the length is the matter of PDO005.
-            let key = mapped.entry.0 >> 8;
-            let place = || pdos::place_of(context.sheet, target);
-            if let Some(first) = inside.get(&key) {
-                report
-                    .add(mapped.value.span(), format!("{pdo} maps {} twice", place()))
-                    .here(format!("entry {}", mapped.sub_index.0))
-                    .label(first.value.span(), format!("entry {}", first.sub_index.0))
-                    .help("map another object in one of the two places");
-                continue;
-            }
-            inside.insert(key, mapped);
-            if !is_in_use {
-                continue;
-            }
-            match written.get(&key) {
-                Some((other, first)) => {
-                    report
-                        .add(mapped.value.span(), format!("{pdo} and {other} both write {}", place()))
-                        .severity(Severity::Info)
-                        .here(format!("entry {} of {pdo}", mapped.sub_index.0))
-                        .label(first.value.span(), format!("entry {} of {other}", first.sub_index.0))
-                        .help("take it out of one of the two, or switch one of them off with bit 31 of its COB-ID");
-                }
-                None => {
-                    written.insert(key, (pdo, mapped));
-                }
-            }
+        check_pdo(context, pdo, report);
+    }
+    check_receivers(context, report);
+}
+
+/// What an entry maps: index and sub-index. The length is the matter of PDO005.
+fn object(mapped: &Mapped<'_>) -> Option<u32> {
+    matches!(mapped.target, Target::Entry(_)).then_some(mapped.entry.0 >> 8)
+}
+
+fn place(context: &Context<'_>, mapped: &Mapped<'_>) -> String {
+    match mapped.target {
+        Target::Entry(entry) => pdos::place_of(context.sheet, entry),
+        _ => mapped.entry.to_string(),
+    }
+}
+
+/// Looks for an object that stands twice in one mapping.
+fn check_pdo(context: &Context<'_>, pdo: &DescribedPdo<'_>, report: &mut Report) {
+    for (position, mapped) in pdo.mapped().iter().enumerate() {
+        let Some(key) = object(mapped) else { continue };
+        let first = pdo.mapped()[..position].iter().find(|first| object(first) == Some(key));
+        let Some(first) = first else { continue };
+        report
+            .add(mapped.value.span(), format!("{pdo} maps {} twice", place(context, mapped)))
+            .here(format!("entry {}", mapped.sub_index.0))
+            .label(first.value.span(), format!("entry {}", first.sub_index.0))
+            .help("map another object in one of the two places");
+    }
+}
+
+/// Looks for objects that two RPDOs in use write.
+fn check_receivers(context: &Context<'_>, report: &mut Report) {
+    let mut written: Vec<(u32, &DescribedPdo<'_>, &Mapped<'_>)> = Vec::new();
+    for pdo in context.pdos().iter().filter(|pdo| pdo.direction == PdoDirection::Receive) {
+        if pdo.is_valid() == Some(true) {
+            let entries = pdo.mapped().iter();
+            written.extend(entries.filter_map(|mapped| Some((object(mapped)?, pdo, mapped))));
+        }
+    }
+    // A stable sort keeps the PDOs of one object in order.
+    written.sort_by_key(|(key, ..)| *key);
+    for same in written.chunk_by(|(a, ..), (b, ..)| a == b) {
+        let [(_, other, first), rest @ ..] = same else { continue };
+        for (_, pdo, mapped) in rest.iter().filter(|(_, pdo, _)| pdo.number != other.number) {
+            report
+                .add(mapped.value.span(), format!("{pdo} and {other} both write {}", place(context, mapped)))
+                .severity(Severity::Info)
+                .here(format!("entry {} of {pdo}", mapped.sub_index.0))
+                .label(first.value.span(), format!("entry {} of {other}", first.sub_index.0))
+                .help("take it out of one of the two, or switch one of them off with bit 31 of its COB-ID");
         }
     }
 }

@@ -138,11 +138,9 @@ fn mappable(context: &Context<'_>, unit: u8) -> Option<Broken> {
     let objects = context.sheet.objects().map(|object| (object.index(), None, object.description()));
     let subs = context.sheet.sub_objects().map(|sub| (sub.index(), Some(sub.sub_index()), sub.description()));
     for (index, sub_index, description) in objects.chain(subs) {
+        let Some(flag) = description.pdo_mapping().filter(|flag| flag.known() == Some(true)) else { continue };
         let Some(data_type) = description.standard_type() else { continue };
         let Some(bits) = data_type.bits().filter(|bits| bits % u16::from(unit) != 0) else { continue };
-        let Some(flag) = description.pdo_mapping().filter(|flag| flag.known() == Some(true)) else {
-            continue;
-        };
         better = common(better, bits);
         if first.is_none() {
             let place = match sub_index {

@@ -70,10 +70,15 @@ fn check_pdo(pdo: &DescribedPdo<'_>, report: &mut Report) {
     let Some(mapping) = pdo.mapping else { return };
     let mut subs = mapping.sub_objects();
     let Some(count) = subs.next().filter(|sub| sub.sub_index().0 == 0).and_then(access) else { return };
-    let entries = subs.filter(|sub| sub.sub_index().0 < 0xFF).map(access);
-    let entries: Option<Vec<_>> = entries.collect();
+    let mut entries = subs.filter(|sub| sub.sub_index().0 < 0xFF).map(access);
+    let Some(first) = entries.next() else { return };
+    // Mostly the first one settles it.
+    if count.1.is_writable() && first.is_some_and(|(_, access)| access.is_writable()) {
+        return;
+    }
+    let entries: Option<Vec<_>> = core::iter::once(first).chain(entries).collect();
     // Where one says nothing, nobody knows.
-    let Some(entries) = entries.filter(|entries| !entries.is_empty()) else { return };
+    let Some(entries) = entries else { return };
     let writable = entries.iter().find(|(_, access)| access.is_writable());
     match (count.1.is_writable(), writable) {
         (false, Some((entry, _))) => {

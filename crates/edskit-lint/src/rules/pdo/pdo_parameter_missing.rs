@@ -65,6 +65,9 @@ rule! {
 fn check(context: &Context<'_>, report: &mut Report) {
     for pdo in context.pdos() {
         let Some(object) = pdo.communication else { continue };
+        if pdo.cob_id.is_some() && pdo.transmission_type.is_some() {
+            continue;
+        }
         // A SubNumber that promises more, or no sub-object at all, is the matter of OBJ008 and OBJ012.
         if object.sub_objects().len() == 0 && object.compact_count() == 0 {
             continue;

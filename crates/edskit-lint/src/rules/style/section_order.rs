@@ -9,7 +9,7 @@ rule! {
     /// ## What it does
     /// Reports a file whose `[FileInfo]` or `[DeviceInfo]` stands behind the objects, whose objects do not ascend
     /// within their list (mandatory, optional, manufacturer), or whose sub-objects do not follow their object in
-    /// ascending order. Only the first such section is shown. Off by default: any order is allowed.
+    /// ascending order. Only the first such section is shown.
     ///
     /// ## Why is this bad
     /// People find an object by its place, and two versions of a file can be compared line by line only if the order
@@ -44,7 +44,6 @@ rule! {
         name: "section-order",
         group: Style,
         severity: Info,
-        enabled: false,
         since: "0.1.0",
         files: DEVICE_FILES,
         check: File(check),
