@@ -2,7 +2,7 @@
 
 mod concise;
 mod github;
-mod human;
+pub(crate) mod human;
 mod json;
 mod junit;
 mod report;
@@ -116,7 +116,7 @@ fn lint_file(linter: &Linter, input: &Input, arguments: &LintArguments, style: h
     let findings = linter.lint(&sheet, kind, own_name);
     // Excerpts need the text, which is gone once the file is done.
     let excerpts = if arguments.format == LintFormat::Human && !arguments.statistics {
-        human::excerpts(&name, &sheet, &findings, style)
+        human::excerpts(&name, sheet.document(), &findings, style)
     } else {
         String::new()
     };
