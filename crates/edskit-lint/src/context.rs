@@ -1,7 +1,7 @@
 //! What checks see, and where they report.
 
-use crate::{FileKind, Finding, Label, Rule, Severity};
-use edskit_model::{Datasheet, Description, Document, Field, Span, Value};
+use crate::{FileKind, Finding, Label, Rule};
+use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
 /// The file that is linted.
@@ -58,6 +58,10 @@ pub struct Variable<'a> {
     pub access_type: Option<Field<'a, AccessType>>,
     /// The mapping right as written.
     pub pdo_mapping: Option<Field<'a, bool>>,
+    /// The right to be mapped into an SRDO as written.
+    pub srdo_mapping: Option<Field<'a, bool>>,
+    /// The flags for downloads and scans as written.
+    pub obj_flags: Option<Field<'a, u32>>,
     /// The default value, read by the data type.
     pub default_value: Option<Field<'a, Value<'a>>>,
     /// The value of a DCF, read by the data type.
@@ -70,9 +74,35 @@ pub struct Variable<'a> {
 
 impl<'a> Variable<'a> {
     pub(crate) fn new(index: Index, sub_index: Option<SubIndex>, description: Description<'a>) -> Self {
-        let object_type = description.object_type();
+        // One walk over the entries instead of a search for each key: this runs for every section of every file.
+        let [mut object_type, mut data_type, mut access_type] = [None; 3];
+        let [mut pdo_mapping, mut srdo_mapping, mut obj_flags] = [None; 3];
+        let [mut default_value, mut parameter_value, mut low_limit, mut high_limit] = [None; 4];
+        for entry in description.entries() {
+            let first = match entry.key().name {
+                KeyName::ObjectType => &mut object_type,
+                KeyName::DataType => &mut data_type,
+                KeyName::AccessType => &mut access_type,
+                KeyName::PdoMapping => &mut pdo_mapping,
+                KeyName::SrdoMapping => &mut srdo_mapping,
+                KeyName::ObjFlags => &mut obj_flags,
+                KeyName::DefaultValue => &mut default_value,
+                KeyName::ParameterValue => &mut parameter_value,
+                KeyName::LowLimit => &mut low_limit,
+                KeyName::HighLimit => &mut high_limit,
+                _ => continue,
+            };
+            first.get_or_insert(entry);
+        }
+        let object_type = object_type.map(Entry::object_code).filter(is_filled);
         let code = object_type.map_or(Some(ObjectCode::Var), Field::known);
-        let data_type = description.data_type();
+        let data_type = data_type.map(Entry::unsigned::<u16>).filter(is_filled);
+        let standard_type = match data_type {
+            Some(field) => field.known().and_then(|index| DataType::from_index(Index(index))),
+            None => (code == Some(ObjectCode::Domain)).then_some(DataType::Domain),
+        };
+        let value =
+            |first: Option<Entry<'a>>| first.map(|entry| entry.value(standard_type)).filter(is_filled);
         Self {
             index,
             sub_index,
@@ -80,13 +110,15 @@ impl<'a> Variable<'a> {
             object_type,
             code,
             data_type,
-            standard_type: description.standard_type(),
-            access_type: description.access_type(),
-            pdo_mapping: description.pdo_mapping(),
-            default_value: description.default_value(),
-            parameter_value: description.parameter_value(),
-            low_limit: description.low_limit(),
-            high_limit: description.high_limit(),
+            standard_type,
+            access_type: access_type.map(Entry::access_type).filter(is_filled),
+            pdo_mapping: pdo_mapping.map(Entry::flag).filter(is_filled),
+            srdo_mapping: srdo_mapping.map(Entry::flag).filter(is_filled),
+            obj_flags: obj_flags.map(Entry::unsigned).filter(is_filled),
+            default_value: value(default_value),
+            parameter_value: value(parameter_value),
+            low_limit: value(low_limit),
+            high_limit: value(high_limit),
         }
     }
 
@@ -104,25 +136,78 @@ impl<'a> Variable<'a> {
     }
 }
 
+/// Whether an entry has a value; an empty one counts as missing (CiA 306 v1.3, 4.2).
+#[inline]
+fn is_filled<T>(field: &Field<'_, T>) -> bool {
+    !matches!(&field.value, Err(error) if error.kind == ValueErrorKind::Empty)
+}
+
+/// Of one rule, a file gets at most this many findings: a file of a megabyte has room for half a million, and nobody
+/// reads even these.
+pub const MOST_FINDINGS: usize = 2_000;
+
 /// Where the rule that runs puts its findings.
 pub struct Report {
-    pub(crate) rule: &'static Rule,
-    pub(crate) severity: Severity,
-    pub(crate) findings: Vec<Finding>,
+    rule: &'static Rule,
+    /// Position of the rule in `counts`.
+    slot: usize,
+    findings: Vec<Finding>,
+    /// For each rule how many it reported, and where its last finding is that was kept.
+    counts: Vec<Count>,
+    /// The last finding that is not kept.
+    surplus: Option<Finding>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Count {
+    reported: usize,
+    last: usize,
 }
 
 impl Report {
+    pub(crate) fn new(rule: &'static Rule) -> Self {
+        Self { rule, slot: 0, findings: Vec::new(), counts: Vec::new(), surplus: None }
+    }
+
+    /// Says which rule runs from now on, and its position among the rules of the run.
+    #[inline]
+    pub(crate) fn enter(&mut self, rule: &'static Rule, slot: usize) {
+        self.rule = rule;
+        self.slot = slot;
+    }
+
     /// Adds a finding at `span`; labels, help and a fix follow on what is returned.
     pub fn add(&mut self, span: Span, message: impl Into<String>) -> &mut Finding {
-        let position = self.findings.len();
-        self.findings.push(Finding {
+        let finding = Finding {
             rule: self.rule,
-            severity: self.severity,
+            severity: self.rule.severity,
             message: message.into(),
             labels: vec![Label { span, text: String::new() }],
             help: None,
             fix: None,
-        });
-        &mut self.findings[position]
+        };
+        if self.counts.len() <= self.slot {
+            self.counts.resize(self.slot + 1, Count::default());
+        }
+        let count = &mut self.counts[self.slot];
+        count.reported += 1;
+        if count.reported > MOST_FINDINGS {
+            return self.surplus.insert(finding);
+        }
+        count.last = self.findings.len();
+        self.findings.push(finding);
+        &mut self.findings[count.last]
+    }
+
+    /// The findings; where a rule reported too many, its last one says so.
+    pub(crate) fn into_findings(mut self) -> Vec<Finding> {
+        for count in self.counts {
+            if let Some(more) = count.reported.checked_sub(MOST_FINDINGS).filter(|&more| more > 0) {
+                self.findings[count.last]
+                    .message
+                    .push_str(&format!("; {more} more findings of this rule are left out"));
+            }
+        }
+        self.findings
     }
 }

@@ -7,6 +7,7 @@
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
 mod context;
+mod edits;
 mod finding;
 mod inline_comment;
 mod linter;
@@ -16,9 +17,13 @@ pub mod rules;
 mod similar;
 #[cfg(test)]
 mod testing;
+mod wording;
 
-pub use context::{Context, Report, Variable};
+pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use linter::Linter;
-pub use rule::{ALL_FILES, Check, DEVICE_FILES, FileKind, FileKinds, Group, Rule};
+pub use rule::{
+    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
+    ObjectCheck, Rule, SectionCheck, VariableCheck,
+};
 pub use rule_set::{RuleSet, UnknownRule, find};

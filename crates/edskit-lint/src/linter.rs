@@ -1,9 +1,10 @@
 //! The engine: it walks a file once and calls each rule at the level it asked for.
 
 use crate::context::{Context, Report, Variable};
+use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
 use crate::{Check, FileKind, Finding, RuleSet};
-use edskit_model::{Datasheet, Entry, Line, Object, Section};
+use edskit_model::Datasheet;
 
 /// Runs a set of rules over files.
 ///
@@ -22,18 +23,20 @@ pub struct Linter {
 /// The checks of one run by level, so that the walk makes no decision per rule.
 #[derive(Default)]
 struct Checks {
-    file: Vec<Active<fn(&Context<'_>, &mut Report)>>,
-    line: Vec<Active<fn(&Context<'_>, &Line, &mut Report)>>,
-    section: Vec<Active<fn(&Context<'_>, Section<'_>, &mut Report)>>,
-    entry: Vec<Active<fn(&Context<'_>, Entry<'_>, &mut Report)>>,
-    object: Vec<Active<fn(&Context<'_>, Object<'_>, &mut Report)>>,
-    variable: Vec<Active<fn(&Context<'_>, &Variable<'_>, &mut Report)>>,
+    file: Vec<Active<FileCheck>>,
+    line: Vec<Active<LineCheck>>,
+    section: Vec<Active<SectionCheck>>,
+    entry: Vec<Active<EntryCheck>>,
+    object: Vec<Active<ObjectCheck>>,
+    variable: Vec<Active<VariableCheck>>,
 }
 
 /// A check and the rule it belongs to.
 struct Active<F> {
     check: F,
     rule: &'static crate::Rule,
+    /// Position among the rules of the run.
+    slot: usize,
 }
 
 impl Linter {
@@ -47,13 +50,14 @@ impl Linter {
         &self.rules
     }
 
-    /// Every finding of the rules, in the order of the file.
+    /// Every finding of the rules, in the order of the file; of one rule at most [`MOST_FINDINGS`], the last of which
+    /// then tells how many were left out.
     ///
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
     /// finding that says what it is.
     pub fn lint(&self, sheet: &Datasheet, kind: FileKind, file_name: Option<&str>) -> Vec<Finding> {
         let context = Context { sheet, kind, file_name };
-        let mut report = Report { rule: &NOT_CANOPEN, severity: NOT_CANOPEN.severity, findings: Vec::new() };
+        let mut report = Report::new(&NOT_CANOPEN);
         if not_canopen::is_foreign(&context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {
                 not_canopen::check(&context, &mut report);
@@ -61,7 +65,7 @@ impl Linter {
         } else {
             walk(&context, &self.checks(kind), &mut report);
         }
-        let mut findings = report.findings;
+        let mut findings = report.into_findings();
         self.rules.apply_severities(&mut findings);
         findings.sort_by(|a, b| {
             (a.span().start, a.rule.code, a.span().end).cmp(&(b.span().start, b.rule.code, b.span().end))
@@ -71,14 +75,14 @@ impl Linter {
 
     fn checks(&self, kind: FileKind) -> Checks {
         let mut checks = Checks::default();
-        for rule in self.rules.enabled().filter(|rule| rule.files.contains(&kind)) {
+        for (slot, rule) in self.rules.enabled().filter(|rule| rule.files.contains(&kind)).enumerate() {
             match rule.check {
-                Check::File(check) => checks.file.push(Active { check, rule }),
-                Check::Line(check) => checks.line.push(Active { check, rule }),
-                Check::Section(check) => checks.section.push(Active { check, rule }),
-                Check::Entry(check) => checks.entry.push(Active { check, rule }),
-                Check::Object(check) => checks.object.push(Active { check, rule }),
-                Check::Variable(check) => checks.variable.push(Active { check, rule }),
+                Check::File(check) => checks.file.push(Active { check, rule, slot }),
+                Check::Line(check) => checks.line.push(Active { check, rule, slot }),
+                Check::Section(check) => checks.section.push(Active { check, rule, slot }),
+                Check::Entry(check) => checks.entry.push(Active { check, rule, slot }),
+                Check::Object(check) => checks.object.push(Active { check, rule, slot }),
+                Check::Variable(check) => checks.variable.push(Active { check, rule, slot }),
             }
         }
         checks
@@ -89,8 +93,7 @@ impl Linter {
 macro_rules! run {
     ($checks:expr, $context:expr, $report:expr $(, $argument:expr)?) => {
         for active in &$checks {
-            $report.rule = active.rule;
-            $report.severity = active.rule.severity;
+            $report.enter(active.rule, active.slot);
             (active.check)($context $(, $argument)?, $report);
         }
     };
@@ -127,5 +130,22 @@ fn walk(context: &Context<'_>, checks: &Checks, report: &mut Report) {
             let variable = Variable::new(sub.index(), Some(sub.sub_index()), sub.description());
             run!(checks.variable, context, report, &variable);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{MOST_FINDINGS, find};
+
+    #[test]
+    fn of_one_rule_only_so_many_findings_are_kept_and_the_last_says_so() {
+        let sheet = Datasheet::parse("[1000]\n".repeat(MOST_FINDINGS + 8).as_bytes());
+        let linter = Linter::new(RuleSet::only(&find("duplicate-section").unwrap()));
+        let findings = linter.lint(&sheet, FileKind::Eds, None);
+        assert_eq!(findings.len(), MOST_FINDINGS);
+        let last = &findings[MOST_FINDINGS - 1].message;
+        assert!(last.ends_with("a second time; 7 more findings of this rule are left out"), "{last}");
+        assert!(findings[..MOST_FINDINGS - 1].iter().all(|finding| !finding.message.contains("left out")));
     }
 }

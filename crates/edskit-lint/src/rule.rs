@@ -88,18 +88,31 @@ pub const ALL_FILES: FileKinds = &[FileKind::Eds, FileKind::Dcf, FileKind::Cpj];
 #[derive(Clone, Copy)]
 pub enum Check {
     /// Once for the file.
-    File(fn(&Context<'_>, &mut Report)),
+    File(FileCheck),
     /// For every line.
-    Line(fn(&Context<'_>, &Line, &mut Report)),
+    Line(LineCheck),
     /// For every section, doubled ones too.
-    Section(fn(&Context<'_>, Section<'_>, &mut Report)),
+    Section(SectionCheck),
     /// For every `key=value` entry, doubled ones too.
-    Entry(fn(&Context<'_>, Entry<'_>, &mut Report)),
+    Entry(EntryCheck),
     /// For every described object of the device.
-    Object(fn(&Context<'_>, Object<'_>, &mut Report)),
+    Object(ObjectCheck),
     /// For every described object or sub-object of the device, with its attributes read.
-    Variable(fn(&Context<'_>, &Variable<'_>, &mut Report)),
+    Variable(VariableCheck),
 }
+
+/// A check of the whole file.
+pub type FileCheck = fn(&Context<'_>, &mut Report);
+/// A check of a line.
+pub type LineCheck = fn(&Context<'_>, &Line, &mut Report);
+/// A check of a section.
+pub type SectionCheck = fn(&Context<'_>, Section<'_>, &mut Report);
+/// A check of an entry.
+pub type EntryCheck = fn(&Context<'_>, Entry<'_>, &mut Report);
+/// A check of an object.
+pub type ObjectCheck = fn(&Context<'_>, Object<'_>, &mut Report);
+/// A check of an object or a sub-object.
+pub type VariableCheck = fn(&Context<'_>, &Variable<'_>, &mut Report);
 
 /// One rule: what it is called, what it means, and its check.
 pub struct Rule {

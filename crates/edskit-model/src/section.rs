@@ -204,7 +204,8 @@ fn object_section(name: &[u8]) -> Option<SectionKind> {
         let sub = u8::try_from(sub).ok()?;
         return rest.is_empty().then_some(SectionKind::SubObject(index, SubIndex(sub)));
     }
-    const SUFFIXES: [(&str, fn(Index) -> SectionKind); 4] = [
+    type Suffix = (&'static str, fn(Index) -> SectionKind);
+    const SUFFIXES: [Suffix; 4] = [
         ("ObjectLinks", SectionKind::ObjectLinks),
         ("Name", SectionKind::CompactNames),
         ("Value", SectionKind::CompactValues),

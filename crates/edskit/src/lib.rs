@@ -5,7 +5,6 @@
 mod cli;
 mod explain;
 mod files;
-mod fmt;
 mod generated;
 mod lint;
 mod positions;
@@ -27,7 +26,6 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams)
     };
     let result = match cli.command {
         cli::Command::Lint(arguments) => lint::run(&arguments, streams),
-        cli::Command::Fmt(arguments) => fmt::run(&arguments, streams),
         cli::Command::Show(arguments) => show::run(&arguments, streams),
         cli::Command::Explain(arguments) => explain::run(&arguments, streams),
         cli::Command::Completions { shell } => generated::completions(shell, streams),

@@ -2,11 +2,11 @@
 
 use super::{Datasheet, EntryRecord, ObjectRecord, SectionRecord, SubObjectRecord};
 use crate::document::{Document, LineKind};
-use crate::key::{Key, KeyGroup};
+use crate::key::{KEY_NAMES, Key, KeyGroup};
 use crate::section::SectionKind;
 
 pub(super) fn datasheet(document: Document) -> Datasheet {
-    let (sections, entries) = read_lines(&document);
+    let (sections, entries, keys) = read_lines(&document);
     let mut objects = Vec::new();
     let mut sub_objects = Vec::new();
     let mut others = Vec::new();
@@ -31,19 +31,21 @@ pub(super) fn datasheet(document: Document) -> Datasheet {
     others.sort_by_key(|&(kind, _)| kind);
     others.dedup_by_key(|&mut (kind, _)| kind);
     join(&mut objects, &sub_objects);
-    Datasheet { document, sections, entries, objects, sub_objects, others }
+    Datasheet { document, sections, entries, objects, sub_objects, others, keys }
 }
 
-fn read_lines(document: &Document) -> (Vec<SectionRecord>, Vec<EntryRecord>) {
+fn read_lines(document: &Document) -> (Vec<SectionRecord>, Vec<EntryRecord>, [bool; KEY_NAMES]) {
     let source = document.to_bytes();
     let lines = document.lines();
     let mut sections: Vec<SectionRecord> = Vec::with_capacity(lines.len() / 9);
     let mut entries = Vec::with_capacity(lines.len());
+    let mut keys = [false; KEY_NAMES];
     let mut group = KeyGroup::Unknown;
     for (number, line) in lines.iter().enumerate() {
         match line.kind() {
             LineKind::Entry => {
                 let key = Key::of(group, line.key(source).slice(source));
+                keys[key.name as usize] = true;
                 entries.push(EntryRecord { line: number as u32, key });
             }
             LineKind::Section => {
@@ -67,7 +69,7 @@ fn read_lines(document: &Document) -> (Vec<SectionRecord>, Vec<EntryRecord>) {
     if let Some(last) = sections.last_mut() {
         last.end_entry = entries.len() as u32;
     }
-    (sections, entries)
+    (sections, entries, keys)
 }
 
 /// Gives each object the range of its sub-objects; both are sorted by index.

@@ -28,7 +28,7 @@ pub use pdo::Pdo;
 pub use section::{ListItem, Section};
 pub use topology::{Topology, TopologyNode};
 
-use crate::key::Key;
+use crate::key::{KEY_NAMES, Key, KeyName};
 use crate::section::SectionKind;
 use crate::{Document, Span};
 use edskit_types::{Index, SubIndex};
@@ -60,6 +60,8 @@ pub struct Datasheet {
     sub_objects: Vec<SubObjectRecord>,
     /// The first section of every other kind, sorted.
     others: Vec<(SectionKind, u32)>,
+    /// Which keys there are, by [`KeyName`].
+    keys: [bool; KEY_NAMES],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -121,6 +123,12 @@ impl Datasheet {
     /// Every entry of the file in order, with or without a section.
     pub fn entries(&self) -> impl ExactSizeIterator<Item = Entry<'_>> + DoubleEndedIterator {
         (0..self.entries.len() as u32).map(|id| Entry { sheet: self, id })
+    }
+
+    /// Whether some entry of the file has the key, in whatever section.
+    #[inline]
+    pub fn has_key(&self, name: KeyName) -> bool {
+        self.keys[name as usize]
     }
 
     /// Entries before the first section.

@@ -27,6 +27,12 @@ impl<'a> Section<'a> {
         self.id
     }
 
+    /// The section that follows in the file.
+    pub fn following(self) -> Option<Section<'a>> {
+        let id = self.id + 1;
+        ((id as usize) < self.sheet.sections.len()).then_some(Section { sheet: self.sheet, id })
+    }
+
     #[inline]
     fn record(self) -> &'a SectionRecord {
         &self.sheet.sections[self.id as usize]

@@ -94,6 +94,23 @@ fn an_empty_entry_counts_as_none_but_is_there() {
 }
 
 #[test]
+fn keys_of_the_file_are_known() {
+    let sheet = Datasheet::parse(b"[1000]\nDataType=7\nobjflags=\n[FileInfo]\nAccessType=ro\n");
+    assert!([KeyName::DataType, KeyName::ObjFlags, KeyName::Unknown].iter().all(|&key| sheet.has_key(key)));
+    assert!(!sheet.has_key(KeyName::AccessType), "no key of this section");
+    assert!(!sheet.has_key(KeyName::FileName) && !Datasheet::parse(b"").has_key(KeyName::Unknown));
+}
+
+#[test]
+fn sections_know_the_next_one() {
+    let sheet = Datasheet::parse(b"[1000]\n[2000]\n[1000]\n");
+    let first = sheet.sections().next().unwrap();
+    assert_eq!(first.following().unwrap().name(), "2000");
+    assert_eq!(first.following().and_then(Section::following).unwrap().id(), 2);
+    assert!(sheet.sections().next_back().unwrap().following().is_none());
+}
+
+#[test]
 fn entries_know_their_sections() {
     let sheet = Datasheet::parse(b"a=1\n[FileInfo]\nFileName=x\n[Other]\n[DeviceInfo]\nVendorName=y\n");
     let sections: Vec<_> =

@@ -40,10 +40,15 @@ pub(crate) fn run(arguments: &ShowArguments, streams: &mut Streams) -> io::Resul
             return Ok(Exit::Failed);
         }
     }
-    let pdo = viewer.pdo_of(index);
-    print(&(object, pdo), arguments.format, streams, |(object, pdo), out| {
-        human::object(object, pdo.as_ref(), out)
-    })
+    let view = ObjectReport { object, pdo: viewer.pdo_of(index) };
+    print(&view, arguments.format, streams, |view, out| human::object(&view.object, view.pdo.as_ref(), out))
+}
+
+/// One object, and the PDO that it is a parameter of.
+#[derive(Serialize)]
+struct ObjectReport {
+    object: ObjectView,
+    pdo: Option<PdoView>,
 }
 
 /// Whether there is nothing of a device in the file.

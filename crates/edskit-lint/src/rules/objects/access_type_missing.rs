@@ -1,0 +1,73 @@
+use super::structure::needs_attributes;
+use crate::rule::rule;
+use crate::{Context, Report, Variable};
+
+rule! {
+    /// A value has no access type
+    ///
+    /// ## What it does
+    /// Reports a VAR, DEFTYPE or sub-object without `AccessType`, and an object with `CompactSubObj` without one. A
+    /// DOMAIN needs none.
+    ///
+    /// ## Why is this bad
+    /// Without the access type a tool does not know whether it may read or write the value. Some assume `rw` and
+    /// configure what the device refuses, others leave the object out.
+    ///
+    /// ## Example
+    /// ```eds
+    /// [2010]
+    /// ParameterName=Ramp time
+    /// ObjectType=0x7
+    /// DataType=0x0006
+    /// ```
+    ///
+    /// ## Use instead
+    /// ```eds
+    /// [2010]
+    /// ParameterName=Ramp time
+    /// ObjectType=0x7
+    /// DataType=0x0006
+    /// AccessType=rw
+    /// ```
+    ///
+    /// ## References
+    /// CiA 306 v1.3, 4.6.3.2.
+    pub(crate) static ACCESS_TYPE_MISSING = {
+        code: "OBJ004",
+        name: "accesstype-missing",
+        group: Objects,
+        severity: Error,
+        since: "0.1.0",
+        files: DEVICE_FILES,
+        check: Variable(check),
+    }
+}
+
+fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
+    if variable.access_type.is_some() || !needs_attributes(context, variable) {
+        return;
+    }
+    report
+        .add(variable.description.section().span(), format!("{} has no AccessType", variable.place()))
+        .help("write `AccessType=` with `ro`, `wo`, `rw`, `rwr`, `rww` or `const`");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::findings;
+
+    #[test]
+    fn only_what_holds_a_value_needs_access() {
+        let text = "[2000]\nObjectType=8\n[2000sub1]\nAccessType=\n[2001]\nObjectType=2\n[2002]\nObjectType=x\n\
+                    [2003]\nDataType=5\n[2004]\nObjectType=8\nCompactSubObj=0\n[2005]\nObjectType=9\nCompactSubObj=4\n";
+        assert_eq!(
+            findings(&ACCESS_TYPE_MISSING, text),
+            [
+                "3:1 error: 2000h sub-index 01h has no AccessType",
+                "9:1 error: 2003h has no AccessType",
+                "14:1 error: 2005h has no AccessType"
+            ]
+        );
+    }
+}

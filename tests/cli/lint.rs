@@ -1,0 +1,171 @@
+//! `edskit lint`: formats, selection, exit codes.
+
+use super::{Folder, edskit, edskit_with_input};
+use edskit::Exit;
+
+/// The gateway's data sheet as its manual prints it.
+const PUBLISHED: &str = "fixtures/CANopenGateway.published.eds";
+/// A small file with a finding of each severity, a fix, and two places.
+const FAULTY: &str = "fixtures/faulty.eds";
+
+#[test]
+fn the_published_gateway_file() {
+    insta::assert_snapshot!("published_gateway", edskit(&["lint", PUBLISHED]).all());
+    insta::assert_snapshot!(
+        "published_gateway_all_rules",
+        edskit(&["lint", "--select", "ALL", "--format", "concise", PUBLISHED]).all()
+    );
+}
+
+#[test]
+fn shipped_files_are_clean() {
+    let output = edskit(&["lint", "../eds", "--fail-on", "info"]);
+    assert_eq!((output.exit, output.stderr.as_str()), (Exit::Clean, ""), "{}", output.stdout);
+}
+
+#[test]
+fn every_format() {
+    for format in ["human", "concise", "json", "github", "junit"] {
+        insta::assert_snapshot!(
+            format!("format_{format}"),
+            edskit(&["lint", FAULTY, "--format", format]).all()
+        );
+    }
+    let colored = edskit(&["lint", FAULTY, "--color", "always"]);
+    assert!(colored.stdout.contains("\u{1b}[") && !edskit(&["lint", FAULTY]).stdout.contains('\u{1b}'));
+}
+
+#[test]
+fn sarif_follows_its_schema() {
+    let schema = std::fs::read("fixtures/sarif-2.1.0.schema.json").unwrap();
+    let schema = serde_json::from_slice(&schema).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    for arguments in
+        [&["lint", FAULTY, "--format", "sarif"][..], &["lint", "missing.eds", "--format", "sarif"]]
+    {
+        let mut log: serde_json::Value = serde_json::from_str(&edskit(arguments).stdout).unwrap();
+        let errors: Vec<String> = validator.iter_errors(&log).map(|error| error.to_string()).collect();
+        assert!(errors.is_empty(), "{errors:#?}");
+        let driver = &mut log["runs"][0]["tool"]["driver"];
+        assert!(driver["rules"].as_array().unwrap().len() > 90);
+        driver["rules"] = "left out of this snapshot".into();
+        driver["version"] = "left out".into();
+        let name = if arguments[1] == FAULTY { "format_sarif" } else { "format_sarif_unreadable" };
+        insta::assert_snapshot!(name, serde_json::to_string_pretty(&log).unwrap());
+    }
+}
+
+#[test]
+fn statistics() {
+    insta::assert_snapshot!("statistics", edskit(&["lint", FAULTY, "--statistics"]).all());
+    insta::assert_snapshot!(
+        "statistics_json",
+        edskit(&["lint", FAULTY, "--statistics", "--format", "json"]).all()
+    );
+}
+
+#[test]
+fn rules_are_selected_by_code_prefix_and_name() {
+    let codes = |arguments: &[&str]| {
+        let output = edskit(&[&["lint", FAULTY, "--format", "concise", "--quiet"], arguments].concat());
+        let code = |line: &str| line.split_once('[').unwrap().1.split_once(']').unwrap().0.to_owned();
+        let mut codes: Vec<String> = output.stdout.lines().map(code).collect();
+        codes.sort();
+        codes.dedup();
+        codes
+    };
+    assert_eq!(codes(&["--select", "SYN013"]), ["SYN013"]);
+    assert_eq!(codes(&["--select", "duplicate-section"]), ["SYN013"]);
+    assert!(
+        codes(&["--select", "OBJ,SYN"]).iter().all(|code| code.starts_with("OBJ") || code.starts_with("SYN"))
+    );
+    assert!(!codes(&["--ignore", "SYN"]).iter().any(|code| code.starts_with("SYN")));
+    assert!(codes(&["--select", "SYN", "--ignore", "SYN"]).is_empty());
+    assert!(codes(&["--extend-select", "FIL008"]).contains(&"FIL008".to_owned()));
+}
+
+#[test]
+fn the_exit_code_follows_the_threshold() {
+    let folder = Folder::new("threshold");
+    let info = folder.write("info.eds", "[Special]\n[FileInfo]\n");
+    let run = |threshold| edskit(&["lint", &info, "--select", "SYN023", "--fail-on", threshold]).exit;
+    assert_eq!((run("error"), run("warning"), run("info")), (Exit::Clean, Exit::Clean, Exit::Findings));
+    assert_eq!(edskit(&["lint", FAULTY, "--fail-on", "error"]).exit, Exit::Findings);
+}
+
+#[test]
+fn standard_input_has_a_name() {
+    let output =
+        edskit_with_input(&["lint", "-", "--format", "concise", "--select", "SYN013"], b"[1000]\n[1000]\n");
+    assert_eq!(
+        output.stdout,
+        "stdin.eds:2:1: error[SYN013] section `[1000]` stands a second time\n1 error in 1 of 1 file\n"
+    );
+    let arguments =
+        ["lint", "-", "--format", "concise", "--stdin-filename", "net.cpj", "--select", "SYN013,LST"];
+    let output = edskit_with_input(&arguments, b"[Topology]\n[TOPOLOGY]\n");
+    assert_eq!(
+        output.stdout,
+        "net.cpj:2:1: error[SYN013] section `[TOPOLOGY]` stands a second time\n1 error in 1 of 1 file\n"
+    );
+}
+
+#[test]
+fn folders_are_searched_and_git_is_heeded() {
+    let folder = Folder::new("search");
+    for name in ["b.EDS", "a.dcf", "deep/c.Cpj", "ignored/d.eds", "notes.txt"] {
+        folder.write(name, "[1000]\n[1000]\n");
+    }
+    folder.write(".gitignore", "ignored/\n");
+    let output = edskit(&["lint", folder.path(), "--select", "SYN013", "--format", "concise", "--quiet"]);
+    let names: Vec<&str> = output.stdout.lines().map(|line| line.split(':').next().unwrap()).collect();
+    let expected = ["a.dcf", "b.EDS", "deep/c.Cpj"].map(|name| format!("{}/{name}", folder.path()));
+    assert_eq!(names, expected);
+    // A file that is named is linted whatever git says, and only once.
+    let ignored = format!("{}/ignored/d.eds", folder.path());
+    let output =
+        edskit(&["lint", &ignored, &ignored, "--select", "SYN013", "--format", "concise", "--quiet"]);
+    assert_eq!(output.stdout.lines().count(), 1);
+}
+
+#[test]
+fn the_order_is_the_same_in_every_run() {
+    let folder = Folder::new("order");
+    for number in 0..40 {
+        folder.write(&format!("{number:02}.eds"), "[1000]\n[1000]\n");
+    }
+    let run = || edskit(&["lint", folder.path(), "--format", "json"]).stdout;
+    let first = run();
+    assert!((0..5).all(|_| run() == first));
+}
+
+#[test]
+fn output_goes_to_a_file() {
+    let folder = Folder::new("output");
+    let target = format!("{}/report.xml", folder.path());
+    let output = edskit(&["lint", FAULTY, "--format", "junit", "--output", &target]);
+    assert_eq!((output.exit, output.stdout.as_str()), (Exit::Findings, ""));
+    let written = String::from_utf8(folder.read("report.xml")).unwrap();
+    assert_eq!(written, edskit(&["lint", FAULTY, "--format", "junit"]).stdout);
+}
+
+#[test]
+fn the_rest_is_linted_when_a_file_is_missing() {
+    let output =
+        edskit(&["lint", "fixtures/missing.eds", FAULTY, "--format", "concise", "--select", "SYN013"]);
+    insta::assert_snapshot!("one_file_missing", output.all());
+    assert_eq!(output.exit, Exit::Failed);
+}
+
+#[test]
+fn every_odd_file_says_what_is_odd() {
+    let mut names: Vec<_> =
+        std::fs::read_dir("fixtures/oddities").unwrap().map(|entry| entry.unwrap().path()).collect();
+    names.sort();
+    assert!(names.len() > 20);
+    for path in names {
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        let output = edskit(&["lint", path.to_str().unwrap(), "--format", "human"]);
+        insta::assert_snapshot!(format!("oddity_{name}"), output.all());
+    }
+}

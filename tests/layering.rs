@@ -1,0 +1,180 @@
+//! The cuts between the crates. The tables are the rule and its documentation: what is not in them is not allowed.
+
+use cargo_metadata::{Dependency, DependencyKind, Metadata, MetadataCommand, Package};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What may be depended on besides crates of this workspace.
+enum Libraries {
+    /// Only these.
+    Only(&'static [&'static str]),
+    /// Any: a crate at the outer edge, which knows terminals, files and formats.
+    Any,
+}
+
+use Libraries::{Any, Only};
+
+/// Each crate with the crates of this workspace and the libraries that it may depend on.
+const ALLOWED: &[(&str, &[&str], Libraries)] = &[
+    ("edskit-types", &[], Only(&[])),
+    ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
+    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde"])),
+    ("edskit-devices", &["edskit-types"], Only(&[])),
+    ("edskit", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices"], Any),
+    ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint"], Any),
+    ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices", "edskit"], Any),
+    ("xtask", &["edskit-types", "edskit-model", "edskit-lint"], Any),
+];
+
+/// What only the outer edge may name: files, the network, processes, clocks, the terminal.
+const OUTER_WORDS: &[&str] = &[
+    "std::env",
+    "std::fs",
+    "std::io",
+    "std::net",
+    "std::os",
+    "std::path",
+    "std::process",
+    "std::thread",
+    "std::time",
+    "Instant",
+    "SystemTime",
+    "print!",
+    "println!",
+    "eprint!",
+    "eprintln!",
+];
+
+#[test]
+fn every_crate_depends_only_on_what_the_table_allows() {
+    let metadata = metadata();
+    for package in metadata.workspace_packages() {
+        let (_, crates, libraries) = ALLOWED
+            .iter()
+            .find(|(name, ..)| package.name == *name)
+            .unwrap_or_else(|| panic!("{}: give the crate a line in the table ALLOWED", package.name));
+        for dependency in &package.dependencies {
+            let name = dependency.name.as_str();
+            let allowed = match (is_of_workspace(dependency), libraries) {
+                // Also for tests: they belong to the crate that has both sides.
+                (true, _) => crates.contains(&name),
+                (false, Only(libraries)) => {
+                    dependency.kind == DependencyKind::Development || libraries.contains(&name)
+                }
+                (false, Any) => true,
+            };
+            assert!(allowed, "{} must not depend on {name}", package.name);
+        }
+    }
+}
+
+#[test]
+fn the_table_names_only_crates_that_exist() {
+    let metadata = metadata();
+    for (name, ..) in ALLOWED {
+        assert!(metadata.workspace_packages().iter().any(|package| package.name == *name), "{name} is gone");
+    }
+}
+
+#[test]
+fn every_crate_takes_lints_licence_and_toolchain_from_the_workspace() {
+    for package in metadata().workspace_packages() {
+        let manifest = read(package.manifest_path.as_std_path());
+        for wanted in [
+            "[lints]\nworkspace = true",
+            "license.workspace = true",
+            "edition.workspace = true",
+            "rust-version.workspace = true",
+        ] {
+            assert!(manifest.contains(wanted), "{}: the manifest lacks {wanted:?}", package.name);
+        }
+        assert_eq!(package.license.as_deref(), Some("MIT OR Apache-2.0"), "{}", package.name);
+        assert!(package.description.is_some(), "{}: the manifest lacks a description", package.name);
+    }
+}
+
+#[test]
+fn libraries_open_no_file_print_nothing_and_know_no_clock() {
+    for package in libraries(&metadata()) {
+        for (path, text) in sources(&source_folder(package)) {
+            for (number, line) in text.lines().enumerate() {
+                let code = line.split("//").next().unwrap_or_default();
+                for word in OUTER_WORDS {
+                    assert!(!has_word(code, word), "{}:{}: {word}", path.display(), number + 1);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn crates_for_devices_need_neither_std_nor_an_allocator_nor_other_crates() {
+    let metadata = metadata();
+    for name in ["edskit-types", "edskit-devices"] {
+        let packages = metadata.workspace_packages();
+        let package = packages.iter().find(|package| package.name == name).expect("the crate is there");
+        let is_foreign = |dependency: &&Dependency| !is_of_workspace(dependency);
+        let foreign = package.dependencies.iter().filter(is_foreign);
+        assert!(
+            foreign.into_iter().all(|dependency| dependency.kind == DependencyKind::Development),
+            "{name}"
+        );
+        for (path, text) in sources(&source_folder(package)) {
+            let is_root = path.ends_with("src/lib.rs");
+            assert!(!is_root || text.contains("#![no_std]\n"), "{} lacks #![no_std]", path.display());
+            assert!(!text.contains("extern crate alloc"), "{}: no allocation", path.display());
+        }
+    }
+}
+
+fn metadata() -> Metadata {
+    let mut command = MetadataCommand::new();
+    command.current_dir(edskit_tests::root()).no_deps();
+    command.exec().expect("cargo metadata runs")
+}
+
+fn is_of_workspace(dependency: &Dependency) -> bool {
+    dependency.path.is_some()
+}
+
+/// The crates of the table that have a fixed list of libraries.
+fn libraries(metadata: &Metadata) -> Vec<&Package> {
+    let is_library = |package: &&Package| {
+        ALLOWED.iter().any(|(name, _, libraries)| package.name == *name && matches!(libraries, Only(_)))
+    };
+    let libraries: Vec<&Package> = metadata.workspace_packages().into_iter().filter(is_library).collect();
+    assert_eq!(libraries.len(), 4);
+    libraries
+}
+
+fn source_folder(package: &Package) -> PathBuf {
+    package.manifest_path.parent().expect("a manifest lies in a folder").join("src").into_std_path_buf()
+}
+
+/// The Rust files below a folder with their text, those of the fuzz targets' own workspace left out.
+fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    for path in edskit_tests::paths(folder) {
+        if path.is_dir() && !path.ends_with("tests/fuzz") {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            let text = read(&path);
+            found.push((path, text));
+        }
+    }
+    found
+}
+
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Whether `word` stands in `line` and is not a part of a longer word.
+fn has_word(line: &str, word: &str) -> bool {
+    let is_part = |character: char| character.is_alphanumeric() || character == '_';
+    line.match_indices(word).any(|(start, _)| {
+        let before = line[..start].chars().next_back();
+        let after = line[start + word.len()..].chars().next();
+        !before.is_some_and(is_part) && !after.is_some_and(is_part)
+    })
+}
