@@ -13,6 +13,17 @@ pub fn measured_value(number: u16) -> Option<&'static str> {
     MEASURED.get(place).map(|(_, name)| *name)
 }
 
+/// The number of a measured value of the gateway with this name, in any case.
+///
+/// ```
+/// use edskit_devices::gateway::measured_value_by_name;
+/// assert_eq!(measured_value_by_name("canopiniterr"), Some(12412));
+/// ```
+#[must_use]
+pub fn measured_value_by_name(name: &str) -> Option<u16> {
+    MEASURED.iter().find(|(_, own)| own.eq_ignore_ascii_case(name)).map(|(number, _)| *number)
+}
+
 /// In the order of the numbers.
 const MEASURED: &[(u16, &str)] = &[
     (2401, "CanTxBufferState"),

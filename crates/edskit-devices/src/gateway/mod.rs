@@ -53,7 +53,7 @@ pub use amount::{Allowed, Amount};
 pub use check::{CAN_OP_INIT_ERR, Claims, ERR_CAN_OPEN, INITIALISATION_ATTEMPTS, RULES};
 pub use configuration::{Configuration, OutOfRange};
 pub use input::{Input, Target};
-pub use measured::measured_value;
+pub use measured::{measured_value, measured_value_by_name};
 pub use name::Name;
 pub use object::ObjectSizes;
 pub use parameter::{Owner, Parameter, Quantity, Values, parameters};

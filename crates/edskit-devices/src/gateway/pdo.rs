@@ -124,6 +124,12 @@ impl Word {
 }
 
 impl Pdo {
+    /// The node-ID of the gateway.
+    #[must_use]
+    pub const fn node_id(&self) -> NodeId {
+        self.node_id
+    }
+
     /// What it carries, word by word; nothing if it is inactive.
     #[must_use]
     pub fn words(&self) -> &[Word] {

@@ -3,14 +3,14 @@
 mod concise;
 mod github;
 pub(crate) mod human;
-mod json;
+pub(crate) mod json;
 mod junit;
 mod report;
 mod sarif;
 mod source;
 mod statistics;
 
-use crate::cli::{Color, LintArguments, LintFormat};
+use crate::cli::{LintArguments, LintFormat};
 use crate::files::{self, Input};
 use crate::positions::Located;
 use crate::{Exit, Streams};
@@ -38,7 +38,8 @@ pub(crate) fn run(arguments: &LintArguments, streams: &mut Streams) -> io::Resul
         return Ok(Exit::Failed);
     }
     let found = files::find(&arguments.paths, streams)?;
-    let style = human::Style { color: use_color(arguments, streams), width: streams.width };
+    let to_terminal = streams.is_terminal && arguments.output.is_none();
+    let style = human::Style { color: arguments.color.is_wanted(to_terminal), width: streams.width };
     let linter = Linter::new(rules);
     let progress = progress(found.inputs.len(), arguments, streams);
     let files = found
@@ -77,17 +78,6 @@ fn rule_set(arguments: &LintArguments) -> Result<RuleSet, UnknownRule> {
         rules.ignore(selector)?;
     }
     Ok(rules)
-}
-
-fn use_color(arguments: &LintArguments, streams: &Streams) -> bool {
-    match arguments.color {
-        Color::Always => true,
-        Color::Never => false,
-        Color::Auto => {
-            let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-            streams.is_terminal && arguments.output.is_none() && !refused
-        }
-    }
 }
 
 fn progress(files: usize, arguments: &LintArguments, streams: &Streams) -> ProgressBar {
