@@ -20,6 +20,10 @@ macro_rules! kinds {
             pub(super) const $kind: &Kind =
                 &Kind { code: $code, name: $name, severity: Severity::$severity };
         )*
+
+        /// Every kind, in the order of the codes.
+        #[cfg(test)]
+        const ALL: &[&Kind] = &[$($kind),*];
     };
 }
 
@@ -106,6 +110,7 @@ impl Problem {
             // Two remarks on one stretch would only draw it twice.
             match self.labels.iter_mut().find(|own| own.span == label.span) {
                 Some(own) if own.text.contains(&label.text) => {}
+                Some(own) if own.text.is_empty() => own.text = label.text,
                 Some(own) => own.text = format!("{}; {}", own.text, label.text),
                 None => self.labels.push(label),
             }
@@ -136,6 +141,30 @@ impl<'a> From<&'a Problem> for Notice<'a> {
             message: &problem.message,
             labels: &problem.labels,
             help: problem.help.clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_lists_every_kind() {
+        let page = include_str!("../../../../docs/gateway-parameters.md");
+        let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| GWC")).collect();
+        assert_eq!(rows.len(), ALL.len());
+        for (row, kind) in rows.iter().zip(ALL) {
+            let start = format!("| {} | {} | {} |", kind.code, kind.name, kind.severity);
+            assert!(row.starts_with(&start), "{row}: {start}");
+        }
+    }
+
+    #[test]
+    fn codes_and_names_are_unique_and_ordered() {
+        assert!(ALL.is_sorted_by(|a, b| a.code < b.code));
+        for (position, kind) in ALL.iter().enumerate() {
+            assert!(ALL[..position].iter().all(|other| other.name != kind.name), "{}", kind.name);
         }
     }
 }
