@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod explain;
+mod fmt;
 mod help;
 mod lint;
 mod show;

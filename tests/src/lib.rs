@@ -1,4 +1,6 @@
-//! Helpers of the tests of what crosses crates: where the files are.
+//! Helpers of the tests of what crosses crates: where the files are, and hostile ones.
+
+pub mod hostile;
 
 use std::ffi::OsStr;
 use std::io::Write;

@@ -1,6 +1,9 @@
 //! What checks see, and where they report.
 
+use crate::listing::Listing;
+use crate::odd_lines::{self, OddLine};
 use crate::{FileKind, Finding, Label, Rule};
+use core::cell::OnceCell;
 use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
@@ -12,9 +15,33 @@ pub struct Context<'a> {
     pub kind: FileKind,
     /// The file's own name without folders, where it has one.
     pub file_name: Option<&'a str>,
+    /// The lists of objects, once a rule has asked for them.
+    listing: OnceCell<Listing>,
+    /// The odd lines, once a rule has asked for them.
+    odd_lines: OnceCell<Vec<OddLine>>,
 }
 
 impl<'a> Context<'a> {
+    /// A file to be linted.
+    pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
+        Self { sheet, kind, file_name, listing: OnceCell::new(), odd_lines: OnceCell::new() }
+    }
+
+    /// The lists of objects, read once for all rules.
+    pub(crate) fn listing(&self) -> &Listing {
+        self.listing.get_or_init(|| Listing::of(self.sheet))
+    }
+
+    /// The lines that hold something a correct file hardly ever holds, found once for all rules.
+    pub(crate) fn odd_lines(&self) -> &[OddLine] {
+        self.odd_lines.get_or_init(|| odd_lines::find(self.sheet))
+    }
+
+    /// The entries on those lines.
+    pub(crate) fn odd_entries(&self) -> impl Iterator<Item = Entry<'a>> {
+        self.odd_lines().iter().filter_map(|line| line.entry(self.sheet))
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()
@@ -151,7 +178,7 @@ pub struct Report {
     rule: &'static Rule,
     /// Position of the rule in `counts`.
     slot: usize,
-    findings: Vec<Finding>,
+    pub(crate) findings: Vec<Finding>,
     /// For each rule how many it reported, and where its last finding is that was kept.
     counts: Vec<Count>,
     /// The last finding that is not kept.

@@ -56,7 +56,7 @@ impl Linter {
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
     /// finding that says what it is.
     pub fn lint(&self, sheet: &Datasheet, kind: FileKind, file_name: Option<&str>) -> Vec<Finding> {
-        let context = Context { sheet, kind, file_name };
+        let context = Context::new(sheet, kind, file_name);
         let mut report = Report::new(&NOT_CANOPEN);
         if not_canopen::is_foreign(&context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {

@@ -5,7 +5,9 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     let word = word.to_ascii_lowercase();
     let allowed = (word.len() / 4).clamp(1, 4);
     let distance = |candidate: &str| distance(word.as_bytes(), candidate.to_ascii_lowercase().as_bytes());
-    let scored = candidates.into_iter().map(|candidate| (distance(candidate), candidate));
+    // A difference in length is a distance already; most candidates need no closer look.
+    let alike = candidates.into_iter().filter(|candidate| candidate.len().abs_diff(word.len()) <= allowed);
+    let scored = alike.map(|candidate| (distance(candidate), candidate));
     scored
         .filter(|&(distance, _)| distance > 0 && distance <= allowed)
         .min_by_key(|&(distance, _)| distance)

@@ -371,6 +371,7 @@ impl KeyName {
     }
 
     /// What its values are.
+    #[inline]
     pub fn shape(self) -> Shape {
         ROWS[self as usize].1
     }

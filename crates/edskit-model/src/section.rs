@@ -152,10 +152,28 @@ impl SectionKind {
         })
     }
 
+    /// The names of the sections that have one fixed name each, as CiA 306 spells them.
+    pub fn fixed_names() -> impl Iterator<Item = &'static str> {
+        let normative = |(name, kind): &&(&str, SectionKind)| {
+            NAMED.iter().find(|(_, other)| other == kind).is_some_and(|(first, _)| first == name)
+        };
+        NAMED.iter().filter(normative).map(|(name, _)| *name)
+    }
+
     /// Whether `name` names this kind in a spelling that is more than a matter of case: a leading zero, `0x`, or
     /// `[DeviceCommissioning]` with two m.
+    #[inline]
     pub fn is_alternative_spelling(self, name: &[u8]) -> bool {
-        self.canonical_name().is_some_and(|canonical| !name.eq_ignore_ascii_case(canonical.as_bytes()))
+        // A name that reads as an object is one in canonical spelling if it is no longer than that.
+        match self {
+            Self::Object(index) => name.len() > hex_digits(index.0),
+            Self::SubObject(index, sub) => {
+                name.len() > hex_digits(index.0) + "sub".len() + hex_digits(sub.0.into())
+            }
+            _ => self
+                .canonical_name()
+                .is_some_and(|canonical| !name.eq_ignore_ascii_case(canonical.as_bytes())),
+        }
     }
 
     /// The index of the object that the section belongs to, of whatever part of it; not for modules.
@@ -263,6 +281,12 @@ fn hex(text: &[u8]) -> Option<(u16, &[u8])> {
     (length > 0).then(|| (value as u16, &text[length..]))
 }
 
+/// How many hexadecimal digits `value` has.
+#[inline]
+fn hex_digits(value: u16) -> usize {
+    (u16::BITS - (value | 1).leading_zeros()).div_ceil(4) as usize
+}
+
 /// A whole text of decimal digits as 16 bits.
 pub(crate) fn decimal(text: &[u8]) -> Option<u16> {
     if text.is_empty() {
@@ -328,12 +352,26 @@ mod tests {
             ("01000", "1000"),
             ("1018sub01", "1018sub1"),
             ("1018sub0x1", "1018sub1"),
+            ("1018sub00", "1018sub0"),
+            ("01000ObjectLinks", "1000ObjectLinks"),
+            ("M01ModuleInfo", "M1ModuleInfo"),
             ("DeviceCommissioning", "DeviceComissioning"),
         ] {
             let kind = SectionKind::of(name.as_bytes());
             assert_eq!(kind, SectionKind::of(canonical.as_bytes()), "{name}");
             assert!(kind.is_alternative_spelling(name.as_bytes()), "{name}");
         }
+    }
+
+    #[test]
+    fn each_fixed_name_is_given_once() {
+        let names: Vec<_> = SectionKind::fixed_names().collect();
+        assert_eq!(names.len(), 12);
+        assert!(
+            names
+                .iter()
+                .all(|name| !SectionKind::of(name.as_bytes()).is_alternative_spelling(name.as_bytes()))
+        );
     }
 
     #[test]
@@ -370,7 +408,11 @@ mod tests {
         #[test]
         fn object_names_read_back(index in any::<u16>(), sub in any::<u8>()) {
             let name = format!("{index:X}sub{sub:X}");
-            prop_assert_eq!(SectionKind::of(name.as_bytes()), SectionKind::SubObject(Index(index), SubIndex(sub)));
+            let kind = SectionKind::of(name.as_bytes());
+            prop_assert_eq!(kind, SectionKind::SubObject(Index(index), SubIndex(sub)));
+            prop_assert!(!kind.is_alternative_spelling(name.as_bytes()));
+            let padded = format!("{index:X}sub0{sub:X}");
+            prop_assert!(kind.is_alternative_spelling(padded.as_bytes()));
         }
     }
 }

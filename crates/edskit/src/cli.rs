@@ -20,6 +20,8 @@ pub struct Cli {
 pub(crate) enum Command {
     /// Check EDS, DCF and nodelist.cpj files
     Lint(LintArguments),
+    /// Bring EDS, DCF and nodelist.cpj files into their canonical form
+    Fmt(FmtArguments),
     /// Show the device that a file describes, one object, or one entry
     Show(ShowArguments),
     /// Check parameter files of devices
@@ -130,6 +132,19 @@ impl Color {
             }
         }
     }
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct FmtArguments {
+    /// Files, or folders that are searched for .eds, .dcf and .cpj files; `-` formats standard input to standard output
+    #[arg(value_name = "PATH", default_value = ".", value_hint = ValueHint::AnyPath)]
+    pub(crate) paths: Vec<PathBuf>,
+    /// Change no file; exit with 1 and name the files that are not in canonical form
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Change no file; print what would change
+    #[arg(long)]
+    pub(crate) diff: bool,
 }
 
 #[derive(Args, Debug)]

@@ -6,9 +6,11 @@ mod cli;
 mod config;
 mod explain;
 mod files;
+mod fmt;
 mod generated;
 mod lint;
 mod positions;
+mod printable;
 mod show;
 mod streams;
 
@@ -27,6 +29,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams)
     };
     let result = match cli.command {
         cli::Command::Lint(arguments) => lint::run(&arguments, streams),
+        cli::Command::Fmt(arguments) => fmt::run(&arguments, streams),
         cli::Command::Show(arguments) => show::run(&arguments, streams),
         cli::Command::Config(arguments) => config::run(&arguments, streams),
         cli::Command::Explain(arguments) => explain::run(&arguments, streams),

@@ -8,9 +8,12 @@
 mod build;
 mod channels;
 mod compact;
+mod compare;
 mod description;
 mod entry;
+mod identity;
 mod info;
+mod meaning;
 mod modules;
 mod object;
 mod pdo;
@@ -19,8 +22,10 @@ mod topology;
 
 pub use channels::{Channel, ChannelOffset, Tool};
 pub use compact::{DictionaryEntry, ImplicitPdo};
+pub use compare::{Difference, same_meaning};
 pub use description::Description;
 pub use entry::{Entry, Field};
+pub(crate) use identity::Identity;
 pub use info::{Commissioning, DeviceInfo, FileInfo};
 pub use modules::{Module, ModuleCount, SubExtension};
 pub use object::{Object, SubObject};
@@ -31,6 +36,7 @@ pub use topology::{Topology, TopologyNode};
 use crate::key::{KEY_NAMES, Key, KeyName};
 use crate::section::SectionKind;
 use crate::{Document, Span};
+use core::ops::RangeInclusive;
 use edskit_types::{Index, SubIndex};
 use std::borrow::Cow;
 
@@ -131,6 +137,18 @@ impl Datasheet {
         self.keys[name as usize]
     }
 
+    /// The entry on a line of the document, counted from 0.
+    pub fn entry_on_line(&self, line: usize) -> Option<Entry<'_>> {
+        let position = self.entries.binary_search_by_key(&line, |entry| entry.line as usize).ok()?;
+        Some(Entry { sheet: self, id: position as u32 })
+    }
+
+    /// Whether some section of CiA 306 stands twice, in whatever spelling.
+    pub fn has_repeated_sections(&self) -> bool {
+        let unknown = self.sections.iter().filter(|section| section.kind == SectionKind::Unknown).count();
+        self.objects.len() + self.sub_objects.len() + self.others.len() + unknown < self.sections.len()
+    }
+
     /// Entries before the first section.
     pub fn entries_outside_sections(&self) -> impl ExactSizeIterator<Item = Entry<'_>> {
         let end = self.sections.first().map_or(self.entries.len() as u32, |section| section.first_entry);
@@ -166,6 +184,16 @@ impl Datasheet {
     #[inline]
     pub fn object(&self, index: Index) -> Option<Object<'_>> {
         self.object_position(index).map(|position| Object::new(self, position as u32))
+    }
+
+    /// The described objects with an index in `indices`, in ascending order.
+    pub fn objects_in(
+        &self,
+        indices: RangeInclusive<Index>,
+    ) -> impl ExactSizeIterator<Item = Object<'_>> + DoubleEndedIterator {
+        let first = self.objects.partition_point(|object| object.index < *indices.start());
+        let end = self.objects.partition_point(|object| object.index <= *indices.end());
+        (first as u32..end as u32).map(|position| Object::new(self, position))
     }
 
     /// All described sub-objects in ascending order, also those whose object is not described.

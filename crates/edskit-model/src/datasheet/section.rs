@@ -1,7 +1,7 @@
 //! One section and its entries.
 
-use super::{Datasheet, Entry, Field, SectionRecord};
-use crate::key::KeyName;
+use super::{Datasheet, Description, Entry, Field, SectionRecord};
+use crate::key::{Key, KeyName};
 use crate::section::SectionKind;
 use crate::{Line, Span};
 use core::fmt;
@@ -44,12 +44,19 @@ impl<'a> Section<'a> {
         self.record().kind
     }
 
+    /// The attributes, where the section describes an object or a sub-object, of the device or of a module.
+    pub fn description(self) -> Option<Description<'a>> {
+        self.kind().is_description().then_some(Description { section: self })
+    }
+
     /// Its header's line in the document, counted from 0.
+    #[inline]
     pub fn line_number(self) -> usize {
         self.record().line as usize
     }
 
     /// Its header's line in the document.
+    #[inline]
     pub fn line(self) -> &'a Line {
         &self.sheet.document.lines()[self.line_number()]
     }
@@ -85,6 +92,14 @@ impl<'a> Section<'a> {
         let record = self.record();
         let sheet = self.sheet;
         (record.first_entry..record.end_entry).map(move |id| Entry { sheet, id })
+    }
+
+    /// The keys of the entries in the order of the file, doubled ones too.
+    #[inline]
+    pub fn keys(self) -> impl ExactSizeIterator<Item = Key> + DoubleEndedIterator {
+        let record = self.record();
+        let entries = &self.sheet.entries[record.first_entry as usize..record.end_entry as usize];
+        entries.iter().map(|entry| entry.key)
     }
 
     /// The first entry with a key, empty or not.

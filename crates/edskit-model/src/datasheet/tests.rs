@@ -51,6 +51,7 @@ fn sections_and_keys_are_found_in_any_case() {
     assert_eq!(info.pdo_count(PdoDirection::Transmit).unwrap().known(), Some(2));
     assert!(info.pdo_count(PdoDirection::Receive).is_none());
     let list = sheet.section(SectionKind::MandatoryObjects).unwrap();
+    assert_eq!(list.keys().map(|key| key.number).collect::<Vec<_>>(), [0, 1, 2]);
     let items: Vec<_> = list.items().map(|item| (item.number, item.index.known())).collect();
     assert_eq!(items, [(1, Some(0x1000)), (2, Some(0x1018))]);
 }
@@ -71,6 +72,17 @@ fn objects_come_sorted_and_the_first_of_two_counts() {
     );
     assert!(sheet.object(Index(0x1020)).is_none());
     assert_eq!(sheet.sections().count(), 9);
+}
+
+#[test]
+fn objects_of_a_range_include_both_ends() {
+    let sheet = Datasheet::parse(b"[1400]\n[13FF]\n[1600]\n[15FF]\n[1401]\n");
+    let indices = |first, last| {
+        sheet.objects_in(Index(first)..=Index(last)).map(|object| object.index().0).collect::<Vec<_>>()
+    };
+    assert_eq!(indices(0x1400, 0x15FF), [0x1400, 0x1401, 0x15FF]);
+    assert_eq!(indices(0, 0xFFFF).len(), 5);
+    assert!(indices(0x2000, 0xFFFF).is_empty());
 }
 
 #[test]
@@ -118,6 +130,34 @@ fn entries_know_their_sections() {
     assert_eq!(sections, [None, Some("FileInfo".into()), Some("DeviceInfo".into())]);
     assert_eq!(sheet.entries_outside_sections().count(), 1);
     assert_eq!(Datasheet::parse(b"a=1").entries_outside_sections().count(), 1);
+}
+
+#[test]
+fn entries_are_found_by_their_line() {
+    let sheet = Datasheet::parse(b"[1000]\n; x\nDataType=7\n\nDefaultValue=1\n");
+    let keys: Vec<_> =
+        (0..6).map(|line| sheet.entry_on_line(line).map(|entry| entry.key_text().into_owned())).collect();
+    assert_eq!(keys, [None, None, Some("DataType".to_owned()), None, Some("DefaultValue".to_owned()), None]);
+}
+
+#[test]
+fn repeated_sections_of_cia_306_are_counted_in_every_spelling() {
+    for (text, repeated) in [
+        ("[1000]\n[1018sub1]\n[Tool1]\n[x]\n[x]\n", false),
+        ("[1000]\n[0x1000]\n", true),
+        ("[1018sub1]\n[1018SUB1]\n", true),
+        ("[DeviceComissioning]\n[DeviceCommissioning]\n", true),
+    ] {
+        assert_eq!(Datasheet::parse(text.as_bytes()).has_repeated_sections(), repeated, "{text}");
+    }
+}
+
+#[test]
+fn only_descriptions_have_attributes() {
+    let sheet = Datasheet::parse(b"[FileInfo]\n[1000]\nDataType=7\n[M1Fixed2000]\nDataType=5\n");
+    let types: Vec<_> =
+        sheet.sections().map(|section| section.description().and_then(Description::standard_type)).collect();
+    assert_eq!(types, [None, Some(DataType::Unsigned32), Some(DataType::Unsigned8)]);
 }
 
 #[test]

@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-pub(super) const UTF8_BOM: &[u8] = b"\xEF\xBB\xBF";
+/// What some editors put in front of UTF-8 text.
+pub(crate) const UTF8_BOM: &[u8] = b"\xEF\xBB\xBF";
 
 /// How the bytes of a document are read as text.
 ///

@@ -115,6 +115,7 @@ impl Line {
     }
 
     /// Of a section header: the `]`, or `None` where it is missing.
+    #[inline]
     pub fn closing_bracket(&self) -> Option<Span> {
         (self.kind == LineKind::Section && self.split < self.end)
             .then(|| Span::new(self.split, self.split + 1))
@@ -144,6 +145,7 @@ impl Line {
     }
 
     /// The blanks and tabs before the first other character.
+    #[inline]
     pub fn indentation(&self, source: &[u8]) -> Span {
         Span::new(self.start, trim_start(source, self.span()).start)
     }

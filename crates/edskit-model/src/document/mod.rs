@@ -9,6 +9,7 @@ mod line;
 mod position;
 
 pub use encoding::Encoding;
+pub(crate) use encoding::UTF8_BOM;
 pub use lex::is_merge_marker;
 pub use line::{Line, LineEnding, LineKind};
 pub use position::Position;
@@ -49,8 +50,8 @@ impl Document {
     /// Reads `bytes` without copying them.
     pub fn from_vec(bytes: Vec<u8>) -> Self {
         let encoding = Encoding::of(&bytes);
-        let byte_order_mark = bytes.starts_with(encoding::UTF8_BOM);
-        let first = if byte_order_mark { encoding::UTF8_BOM.len() } else { 0 };
+        let byte_order_mark = bytes.starts_with(UTF8_BOM);
+        let first = if byte_order_mark { UTF8_BOM.len() } else { 0 };
         let lexed = &bytes[..bytes.len().min(MAX_LEXED)];
         let (lines, endings) = match std::str::from_utf8(lexed) {
             Ok(text) => lex::lines(text, first),
@@ -82,7 +83,7 @@ impl Document {
 
     /// The UTF-8 byte order mark at the start, which is not part of the first line.
     pub fn byte_order_mark(&self) -> Option<Span> {
-        self.byte_order_mark.then(|| Span::new(0, encoding::UTF8_BOM.len() as u32))
+        self.byte_order_mark.then(|| Span::new(0, UTF8_BOM.len() as u32))
     }
 
     /// Whether all of the input was split into lines (false beyond 4 GiB).

@@ -4,7 +4,7 @@ use super::problem::{self, Problem};
 use super::reading::{Reading, Setting};
 use super::view;
 use edskit_devices::gateway::{
-    Activity, Input, Owner, Parameter, PdoTable, Period, Quantity, SignalType, Signals, Target,
+    Activity, Input, Owner, Parameter, Pdo, PdoTable, Period, Quantity, SignalType, Signals, Target,
 };
 use edskit_lint::Severity;
 
@@ -145,7 +145,8 @@ fn tpdos(reading: &Reading, table: &PdoTable, problems: &mut Vec<Problem>) {
                 );
                 problems.push(problem.help(help));
             }
-            Activity::NoData => {
+            // What is assigned and cannot be sent has been reported.
+            Activity::NoData if is_unassigned(reading, pdo) => {
                 let message = format!("{party} has a cycle time but no data, so that it is not sent");
                 let problem = Problem::new(problem::IDLE_TPDO, reading.label(cycle, ""), message);
                 let first = pdo.activity_parameters().next();
@@ -161,6 +162,12 @@ fn tpdos(reading: &Reading, table: &PdoTable, problems: &mut Vec<Problem>) {
             _ => {}
         }
     }
+}
+
+fn is_unassigned(reading: &Reading, pdo: &Pdo) -> bool {
+    (0..4)
+        .filter_map(|word| Parameter::tpdo_assignment(pdo.number, word))
+        .all(|p| reading.configuration.get(p) == 0)
 }
 
 /// GW-NOTE-08.

@@ -18,7 +18,7 @@ pub(super) fn write(report: &Report, excerpts: &str, quiet: bool, out: &mut dyn 
         }
     }
     match report.is_accepted {
-        Some(true) => writeln!(out, "\nThe gateway accepts this configuration.")?,
+        Some(true) => writeln!(out, "\nThe gateway's own check at its initialisation passes.")?,
         Some(false) => writeln!(
             out,
             "\nThe gateway refuses this configuration: after {INITIALISATION_ATTEMPTS} attempts it stays off CANopen with {CAN_OP_INIT_ERR} CanOpInitErr."

@@ -103,7 +103,8 @@ fn near(owner: Owner, digits: &str, number: u16) -> Option<Parameter> {
     let next = of(owner).min_by_key(away).filter(|parameter| away(parameter) <= NEIGHBOURS);
     let similar = || {
         let numbers: Vec<String> = of(owner).map(|parameter| parameter.number().to_string()).collect();
-        let similar = nearest(digits, numbers.iter().map(String::as_str))?;
+        let as_long = numbers.iter().map(String::as_str).filter(|other| other.len() == digits.len());
+        let similar = nearest(digits, as_long)?;
         Parameter::find(owner, similar.parse().ok()?)
     };
     next.or_else(similar)

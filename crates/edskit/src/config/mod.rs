@@ -54,7 +54,7 @@ impl Report {
             // A value that is missing because it could not be read would make others look wrong.
             false => (None, None),
         };
-        let mut problems = reading.problems;
+        let mut problems: Vec<Problem> = reading.problems.into_iter().map(Problem::printable).collect();
         problems.sort_by_key(|problem| problem.span().start);
         Self { problems, is_accepted, view }
     }

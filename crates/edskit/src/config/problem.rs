@@ -1,6 +1,7 @@
 //! What the check reports.
 
 use crate::lint::human::Notice;
+use crate::printable;
 use edskit_lint::{Label, Severity};
 use edskit_model::Span;
 
@@ -125,6 +126,15 @@ impl Problem {
 
     pub(super) fn severity(mut self, severity: Severity) -> Self {
         self.severity = severity;
+        self
+    }
+
+    /// The same with nothing that would steer a terminal; texts quote the file.
+    pub(super) fn printable(mut self) -> Self {
+        let texts = self.labels.iter_mut().map(|label| &mut label.text);
+        for text in texts.chain([&mut self.message]).chain(&mut self.help) {
+            *text = printable::line(text);
+        }
         self
     }
 

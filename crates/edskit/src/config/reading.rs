@@ -3,6 +3,7 @@
 use super::problem::{self, Problem};
 use super::signals::{Declared, KnownSignals, TYPES};
 use super::{key, syntax, value};
+use crate::printable;
 use edskit_devices::gateway::{Configuration, Owner, Parameter};
 use edskit_lint::{Label, MOST_FINDINGS, Severity, nearest};
 use edskit_model::Span;
@@ -37,7 +38,7 @@ pub(super) struct Setting {
 }
 
 /// Entries of a table in the order of the file.
-pub(super) type Entries<'t, 'i> = Vec<(&'t str, Span, &'t Spanned<DeValue<'i>>)>;
+type Entries<'t, 'i> = Vec<(&'t str, Span, &'t Spanned<DeValue<'i>>)>;
 
 impl Reading {
     pub(super) fn of(bytes: &[u8]) -> Self {
@@ -98,7 +99,7 @@ impl Reading {
 
     fn read(&mut self, text: &str) {
         let (root, errors) = DeTable::parse_recoverable(text);
-        self.problems.extend(syntax::problems(&errors, root.get_ref(), text));
+        self.problems.extend(syntax::problems(&errors, text));
         if self.problems.iter().any(|problem| problem.kind.code == problem::TOML_SYNTAX.code) {
             return;
         }
@@ -250,7 +251,7 @@ fn signal_of_table<'t>(number: u16, table: &'t DeTable<'_>) -> Result<NameAndTyp
         let text = value.get_ref().as_str();
         let place = span(value.span());
         match (key, text) {
-            ("name", Some(text)) => name = Some(text.to_owned()),
+            ("name", Some(text)) => name = Some(printable::line(text)),
             ("type", Some(text)) => type_word = Some((text, place)),
             ("name" | "type", None) => return Err(invalid(place, format!("`{key}` must be a text"))),
             _ => {
@@ -272,7 +273,7 @@ fn unknown_key(name: &str, span: Span) -> Problem {
 }
 
 /// The entries in the order in which they stand in the file.
-pub(super) fn entries<'t, 'i>(table: &'t DeTable<'i>) -> Entries<'t, 'i> {
+fn entries<'t, 'i>(table: &'t DeTable<'i>) -> Entries<'t, 'i> {
     let entry = |(key, value): (&'t Spanned<DeString<'i>>, &'t Spanned<DeValue<'i>>)| {
         (key.get_ref().as_ref(), span(key.span()), value)
     };

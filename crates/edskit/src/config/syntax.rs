@@ -1,15 +1,15 @@
 //! What is wrong with a file that is no TOML.
 
 use super::problem::{self, Problem};
-use super::reading::{entries, span};
+use super::reading::span;
 use edskit_model::Span;
-use toml::de::{DeTable, DeValue, Error};
+use toml::de::Error;
 
 /// The most errors that are shown; who gives the wrong file need not see every line of it.
 const MOST: usize = 20;
 
-/// The errors of the parser, one for each line. `root` is what it made of the rest.
-pub(super) fn problems(errors: &[Error], root: &DeTable<'_>, text: &str) -> Vec<Problem> {
+/// The errors of the parser, one for each line.
+pub(super) fn problems(errors: &[Error], text: &str) -> Vec<Problem> {
     let mut problems: Vec<Problem> = Vec::new();
     let mut last: Option<u32> = None;
     for error in errors {
@@ -25,21 +25,16 @@ pub(super) fn problems(errors: &[Error], root: &DeTable<'_>, text: &str) -> Vec<
             }
             break;
         }
-        problems.push(problem(error.message(), place, root, text));
+        problems.push(problem(error.message(), place, text));
     }
     problems
 }
 
-fn problem(message: &str, place: Span, root: &DeTable<'_>, text: &str) -> Problem {
+fn problem(message: &str, place: Span, text: &str) -> Problem {
     let key = text.get(place.range()).unwrap_or_default();
     if message.starts_with("duplicate key") && !key.is_empty() {
         let problem = Problem::at(problem::DUPLICATE_KEY, place, format!("`{key}` stands twice"));
-        let header = || {
-            let before = text.get(..place.start as usize)?;
-            let start = before.rfind(&format!("[{key}]"))? + 1;
-            Some(span(start..start + key.len()))
-        };
-        let problem = match last_before(root, key, place.start, text).or_else(header) {
+        let problem = match first_of(key, place, text) {
             Some(first) => problem.label(first, "the first time"),
             None => problem,
         };
@@ -53,18 +48,21 @@ fn problem(message: &str, place: Span, root: &DeTable<'_>, text: &str) -> Proble
     }
 }
 
-/// The key of this text that stands last before `end`: the first of two equal keys in one table.
-fn last_before(table: &DeTable<'_>, key: &str, end: u32, text: &str) -> Option<Span> {
-    let mut found = None;
-    for (_, span, value) in entries(table).into_iter().take_while(|(_, span, _)| span.start < end) {
-        if text.get(span.range()) == Some(key) {
-            found = Some(span);
-        }
-        if let DeValue::Table(inner) = value.get_ref() {
-            found = last_before(inner, key, end, text).or(found);
+/// The last line before that begins with this key, or the header of this name.
+fn first_of(key: &str, place: Span, text: &str) -> Option<Span> {
+    let before = text.get(..place.start as usize)?;
+    let mut end = before.len();
+    for line in before.split_inclusive('\n').rev() {
+        end -= line.len();
+        let header = line.trim().strip_prefix('[').and_then(|line| line.strip_suffix(']'));
+        let is_entry =
+            || line.trim_start().strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('='));
+        if header.is_some_and(|header| header.trim() == key) || is_entry() {
+            let start = end + line.find(key)?;
+            return Some(span(start..start + key.len()));
         }
     }
-    found
+    None
 }
 
 /// The digits of a value like `282h`, as the manual writes identifiers.

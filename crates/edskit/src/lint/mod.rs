@@ -13,6 +13,7 @@ mod statistics;
 use crate::cli::{LintArguments, LintFormat};
 use crate::files::{self, Input};
 use crate::positions::Located;
+use crate::printable;
 use crate::{Exit, Streams};
 use edskit_lint::{FileKind, Linter, RuleSet, UnknownRule};
 use edskit_model::{Datasheet, Document};
@@ -103,7 +104,8 @@ fn lint_file(linter: &Linter, input: &Input, arguments: &LintArguments, style: h
     };
     let sheet = Datasheet::new(Document::from_vec(bytes));
     let own_name = name.rsplit('/').next();
-    let findings = linter.lint(&sheet, kind, own_name);
+    let mut findings = linter.lint(&sheet, kind, own_name);
+    findings.iter_mut().for_each(printable::finding);
     // Excerpts need the text, which is gone once the file is done.
     let excerpts = if arguments.format == LintFormat::Human && !arguments.statistics {
         human::excerpts(&name, sheet.document(), &findings, style)

@@ -1,5 +1,6 @@
 //! A file's text as a terminal can show it, with excerpts found without a walk from its start.
 
+use crate::printable;
 use edskit_model::{Document, Span};
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use std::borrow::Cow;
@@ -66,10 +67,7 @@ fn displayed(document: &Document) -> (String, Vec<u32>) {
             match character {
                 '\r' if is_ending && bytes.len() == 1 => text.push('\n'),
                 '\t' | '\n' | '\r' => text.push(character),
-                '\0'..='\u{1F}' => text.push(char::from_u32(0x2400 + u32::from(character)).unwrap_or('?')),
-                '\u{7F}' => text.push('\u{2421}'),
-                _ if character.is_control() || is_direction_mark(character) => text.push('\u{FFFD}'),
-                _ => text.push(character),
+                _ => text.push(printable::character(character)),
             }
         }
     };
@@ -83,11 +81,6 @@ fn displayed(document: &Document) -> (String, Vec<u32>) {
     }
     offsets.resize(document.to_bytes().len() + 1, text.len() as u32);
     (text, offsets)
-}
-
-/// Characters that make text look different from what it is.
-fn is_direction_mark(character: char) -> bool {
-    matches!(character, '\u{200B}'..='\u{200F}' | '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}' | '\u{FEFF}')
 }
 
 impl<'a> Source<'a> {

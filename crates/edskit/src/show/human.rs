@@ -151,11 +151,10 @@ fn pdo(view: &PdoView, out: &mut dyn Write) -> io::Result<()> {
     }
 }
 
-/// A text of at most [`NAME_WIDTH`] characters without control characters.
+/// A text of at most [`NAME_WIDTH`] characters.
 fn shortened(text: &str) -> String {
-    let clean = |c: char| if c.is_control() { '\u{FFFD}' } else { c };
     if text.chars().count() <= NAME_WIDTH {
-        return text.chars().map(clean).collect();
+        return text.to_owned();
     }
-    text.chars().map(clean).take(NAME_WIDTH - 1).chain(['…']).collect()
+    text.chars().take(NAME_WIDTH - 1).chain(['…']).collect()
 }

@@ -6,6 +6,7 @@ mod view;
 
 use crate::cli::{ShowArguments, ShowFormat};
 use crate::files;
+use crate::printable;
 use crate::{Exit, Streams};
 use edskit_model::nature::Nature;
 use edskit_model::{Datasheet, SectionKind};
@@ -66,7 +67,13 @@ fn print<T: Serialize>(
     human: impl FnOnce(&T, &mut dyn Write) -> io::Result<()>,
 ) -> io::Result<Exit> {
     match format {
-        ShowFormat::Human => human(view, &mut streams.stdout)?,
+        ShowFormat::Human => {
+            let mut text = Vec::new();
+            human(view, &mut text)?;
+            for line in String::from_utf8_lossy(&text).lines() {
+                writeln!(streams.stdout, "{}", printable::line(line))?;
+            }
+        }
         ShowFormat::Json => {
             serde_json::to_writer_pretty(&mut streams.stdout, view)?;
             writeln!(streams.stdout)?;

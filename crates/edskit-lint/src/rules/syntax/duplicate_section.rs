@@ -1,3 +1,4 @@
+use super::repeats;
 use crate::rule::rule;
 use crate::{Context, Report};
 use edskit_model::{Section, SectionKind};
@@ -45,22 +46,27 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let mut known: HashMap<SectionKind, Section<'_>> = HashMap::new();
+    // Two spellings of one section are the matter of SYN015.
+    let same_name =
+        |(first, again): &(Section<'_>, Section<'_>)| first.name().eq_ignore_ascii_case(&again.name());
+    for (first, again) in repeats::of_cia_306(context).filter(same_name) {
+        repeated(first, again, report);
+    }
     let mut unknown: HashMap<String, Section<'_>> = HashMap::new();
-    for section in context.sheet.sections() {
-        let first = match section.kind() {
-            SectionKind::Unknown => *unknown.entry(section.name().to_ascii_lowercase()).or_insert(section),
-            kind => *known.entry(kind).or_insert(section),
-        };
-        // Two spellings of one section are the matter of SYN015.
-        if first.id() != section.id() && first.name().eq_ignore_ascii_case(&section.name()) {
-            report
-                .add(section.span(), format!("section `[{}]` stands a second time", section.name()))
-                .here("the second one")
-                .label(first.span(), "the first one")
-                .help("keep one of the two, or give this one the index that was meant");
+    for section in context.sheet.sections().filter(|section| section.kind() == SectionKind::Unknown) {
+        let first = *unknown.entry(section.name().to_ascii_lowercase()).or_insert(section);
+        if first.id() != section.id() {
+            repeated(first, section, report);
         }
     }
+}
+
+fn repeated(first: Section<'_>, again: Section<'_>, report: &mut Report) {
+    report
+        .add(again.span(), format!("section `[{}]` stands a second time", again.name()))
+        .here("the second one")
+        .label(first.span(), "the first one")
+        .help("keep one of the two, or give this one the index that was meant");
 }
 
 #[cfg(test)]

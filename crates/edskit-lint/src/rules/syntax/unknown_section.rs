@@ -1,0 +1,222 @@
+use crate::rule::rule;
+use crate::similar::nearest;
+use crate::{Context, Edit, Report, Severity};
+use edskit_model::{Section, SectionKind};
+use std::collections::HashMap;
+
+rule! {
+    /// A section is not one of CiA 306
+    ///
+    /// ## What it does
+    /// Lists the sections that CiA 306 does not know. Sections whose names differ only in the number at their end are
+    /// listed once. A name that looks like a known one, and a sub-index above FFh, is a warning.
+    ///
+    /// ## Why is this bad
+    /// Extensions are allowed, and other tools skip them. But a misspelt section is skipped in the same way, with
+    /// everything in it.
+    ///
+    /// ## Example
+    /// ```eds
+    /// [FileInfo]
+    /// FileName=example.eds
+    /// [DevicInfo]
+    /// VendorName=Example
+    /// ```
+    ///
+    /// ## Use instead
+    /// ```eds
+    /// [FileInfo]
+    /// FileName=example.eds
+    /// [DeviceInfo]
+    /// VendorName=Example
+    /// ```
+    ///
+    /// ## References
+    /// CiA 306 v1.3, 4.2.
+    pub(crate) static UNKNOWN_SECTION = {
+        code: "SYN023",
+        name: "unknown-section",
+        group: Syntax,
+        severity: Info,
+        since: "0.1.0",
+        files: ALL_FILES,
+        check: File(check),
+    }
+}
+
+/// Extensions that are well known, and the tool that writes them.
+const EXTENSIONS: [(&str, &str); 2] =
+    [("TypeDefinitions", "CANopenEditor"), ("StandardDataTypes", "CANFestival")];
+
+fn check(context: &Context<'_>, report: &mut Report) {
+    let mut groups: HashMap<String, usize> = HashMap::new();
+    let mut listed: Vec<(Section<'_>, usize)> = Vec::new();
+    for section in context.sheet.sections().filter(|section| section.kind() == SectionKind::Unknown) {
+        let name = section.name();
+        // SYN006 reports headers that are not even well formed.
+        if name.is_empty() || section.line().closing_bracket().is_none() {
+            continue;
+        }
+        if let Some(known) = suggestion(context, &name) {
+            misspelt(context, section, &known, report);
+            continue;
+        }
+        let stem = name.trim_end_matches(|c: char| c.is_ascii_digit()).to_ascii_lowercase();
+        let group = *groups.entry(stem).or_insert(listed.len());
+        match listed.get_mut(group) {
+            Some((_, count)) => *count += 1,
+            None => listed.push((section, 1)),
+        }
+    }
+    for (section, count) in listed {
+        unknown(section, count, report);
+    }
+}
+
+fn misspelt(context: &Context<'_>, section: Section<'_>, known: &str, report: &mut Report) {
+    let message = format!("`[{}]` is not a section of CiA 306; it looks like `[{known}]`", section.name());
+    let finding = report.add(section.name_span(), message);
+    finding.severity(Severity::Warning).help(format!("write `[{known}]` if that is meant"));
+    if context.sheet.section(SectionKind::of(known.as_bytes())).is_none() {
+        finding.unsafe_fix(format!("Write `[{known}]`"), vec![Edit::replace(section.name_span(), known)]);
+    }
+}
+
+fn unknown(section: Section<'_>, count: usize, report: &mut Report) {
+    let name = section.name();
+    let others = match count {
+        1 => String::new(),
+        2 => ", and there is one more of the kind".to_owned(),
+        _ => format!(", and there are {} more of the kind", count - 1),
+    };
+    if let Some((index, sub)) = split_object(&name).and_then(|(index, rest)| Some((index, sub_digits(rest)?)))
+    {
+        let finding = report
+            .add(section.name_span(), format!("the sub-index of `[{name}]` is above FFh{others}"))
+            .severity(Severity::Warning);
+        match sub.parse::<u8>() {
+            Ok(decimal) => finding.help(format!(
+                "sub-indices are hexadecimal: write `[{index}sub{decimal:X}]` if {sub} is decimal, and check the others"
+            )),
+            Err(_) => finding.help("a sub-index has two hexadecimal digits at most"),
+        };
+        return;
+    }
+    let finding = report.add(section.name_span(), format!("`[{name}]` is not a section of CiA 306{others}"));
+    if let Some((_, tool)) = EXTENSIONS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known)) {
+        finding.help(format!("it is an extension of {tool}; other tools skip it"));
+    } else if name.len() > 4 && name.bytes().all(|byte| byte.is_ascii_hexdigit()) {
+        finding.severity(Severity::Warning).help("an index has four hexadecimal digits");
+    } else {
+        finding.help("extensions are allowed, but other tools skip them");
+    }
+}
+
+/// The section that was meant, by its name.
+fn suggestion(context: &Context<'_>, name: &str) -> Option<String> {
+    let dense: String = name.chars().filter(|c| !matches!(c, ' ' | '\t' | '_' | '-' | '.')).collect();
+    let kind = SectionKind::of(dense.as_bytes());
+    // Many words are hexadecimal digits once their blanks are gone.
+    if dense.len() < name.len() && !matches!(kind, SectionKind::Object(_)) && kind != SectionKind::Unknown {
+        return kind.canonical_name();
+    }
+    if let Some((index, rest)) = split_object(name) {
+        if let Some(suffix) = nearest(rest, ["ObjectLinks", "Name", "Value", "Denotation"]) {
+            return Some(format!("{index}{suffix}"));
+        }
+        let (word, digits) = rest.split_at_checked("sub".len())?;
+        let is_sub_index =
+            (1..=2).contains(&digits.len()) && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+        return (is_sub_index && nearest(word, ["sub"]).is_some()).then(|| format!("{index}sub{digits}"));
+    }
+    if let Some(known) = nearest(name, SectionKind::fixed_names()) {
+        return Some(known.to_owned());
+    }
+    if let Some(rest) = name.strip_prefix(['M', 'm']) {
+        let (module, word) = rest.split_at(rest.find(|c: char| !c.is_ascii_digit())?);
+        if !module.is_empty() {
+            let parts = ["ModuleInfo", "Comments", "FixedObjects", "SubExtends"];
+            return nearest(word, parts).map(|part| format!("M{module}{part}"));
+        }
+    }
+    // `[Device]` for `[DeviceInfo]`
+    let begins = |known: &&str| known.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name));
+    let known = SectionKind::fixed_names().find(begins).filter(|_| name.len() >= 4)?;
+    context.sheet.section(SectionKind::of(known.as_bytes())).is_none().then(|| known.to_owned())
+}
+
+/// Four hexadecimal digits at the start of a name, and what follows.
+fn split_object(name: &str) -> Option<(&str, &str)> {
+    let (index, rest) = name.split_at_checked(4)?;
+    index.bytes().all(|byte| byte.is_ascii_hexdigit()).then_some((index, rest)).filter(|_| !rest.is_empty())
+}
+
+/// The digits behind `sub`.
+fn sub_digits(rest: &str) -> Option<&str> {
+    let (word, digits) = rest.split_at_checked("sub".len())?;
+    let is_number = digits.len() > 2 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    (is_number && word.eq_ignore_ascii_case("sub")).then_some(digits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{findings, fixed};
+
+    #[test]
+    fn extensions_are_listed_once_for_each_stem() {
+        let text = "[1000]\n[TypeDefinitions]\n[Colour1]\n[Colour2]\n[Colour33]\n[Shape]\n[]\n[Half\n";
+        assert_eq!(
+            findings(&UNKNOWN_SECTION, text),
+            [
+                "2:2 info: `[TypeDefinitions]` is not a section of CiA 306",
+                "3:2 info: `[Colour1]` is not a section of CiA 306, and there are 2 more of the kind",
+                "6:2 info: `[Shape]` is not a section of CiA 306",
+            ]
+        );
+    }
+
+    #[test]
+    fn misspelt_names_are_recognised() {
+        for (wrong, right) in [
+            ("FielInfo", "FileInfo"),
+            ("Mandatory Objects", "MandatoryObjects"),
+            ("Device", "DeviceInfo"),
+            ("DeviceCom", "DeviceComissioning"),
+            ("1018 sub1", "1018sub1"),
+            ("1018sup1", "1018sub1"),
+            ("1003Values", "1003Value"),
+            ("M1ModulInfo", "M1ModuleInfo"),
+            ("Comment", "Comments"),
+        ] {
+            assert_eq!(
+                fixed(&UNKNOWN_SECTION, &format!("[1000]\n[{wrong}]\n")),
+                format!("[1000]\n[{right}]\n")
+            );
+        }
+        for other in ["Def", "DeviceX11", "1018x", "ABCDE", "A B", "M", "M1", "Makro", "1018sub"] {
+            let text = format!("[1000]\n[{other}]\n");
+            assert_eq!(fixed(&UNKNOWN_SECTION, &text), text);
+        }
+        assert_eq!(
+            findings(&UNKNOWN_SECTION, "[FileInfo]\n[FielInfo]\n[File]\n"),
+            [
+                "2:2 warning: `[FielInfo]` is not a section of CiA 306; it looks like `[FileInfo]`",
+                "3:2 info: `[File]` is not a section of CiA 306",
+            ]
+        );
+    }
+
+    #[test]
+    fn numbers_that_are_too_large() {
+        let text = "[4900]\n[4900sub99]\n[4900sub100]\n[4900sub101]\n[4901sub1FF]\n[10000]\n";
+        assert_eq!(
+            findings(&UNKNOWN_SECTION, text),
+            [
+                "3:2 warning: the sub-index of `[4900sub100]` is above FFh, and there is one more of the kind",
+                "5:2 warning: the sub-index of `[4901sub1FF]` is above FFh",
+                "6:2 warning: `[10000]` is not a section of CiA 306",
+            ]
+        );
+    }
+}

@@ -1,0 +1,93 @@
+//! `edskit fmt`.
+
+use crate::cli::FmtArguments;
+use crate::files::{self, Input};
+use crate::{Exit, Streams};
+use edskit_model::nature::Nature;
+use edskit_model::{Datasheet, Document, SectionKind, format};
+use similar::TextDiff;
+use std::fs;
+use std::io::{self, Write};
+
+/// The name of standard input in messages.
+const STDIN: &str = "<stdin>";
+
+pub(crate) fn run(arguments: &FmtArguments, streams: &mut Streams) -> io::Result<Exit> {
+    let found = files::find(&arguments.paths, streams)?;
+    let mut exit = Exit::Clean;
+    for failure in &found.failures {
+        streams.complain(format_args!("{failure}"));
+        exit = Exit::Failed;
+    }
+    let mut counts = Counts::default();
+    for input in &found.inputs {
+        match format_input(input, arguments, streams) {
+            Ok(true) => counts.changed += 1,
+            Ok(false) => counts.unchanged += 1,
+            Err(reason) => {
+                streams.complain(format_args!("{reason}"));
+                exit = Exit::Failed;
+            }
+        }
+    }
+    let only_looks = arguments.check || arguments.diff;
+    if !found.inputs.iter().any(|input| matches!(input, Input::Stdin(_))) {
+        writeln!(streams.stderr, "{}", counts.sentence(only_looks))?;
+    }
+    streams.stdout.flush()?;
+    if only_looks && counts.changed > 0 { Ok(exit.max(Exit::Findings)) } else { Ok(exit) }
+}
+
+#[derive(Default)]
+struct Counts {
+    changed: usize,
+    unchanged: usize,
+}
+
+impl Counts {
+    fn sentence(&self, only_looks: bool) -> String {
+        let files = |count: usize| if count == 1 { "1 file".to_owned() } else { format!("{count} files") };
+        let done = if only_looks { "would be changed" } else { "changed" };
+        format!("{} {done}, {} in canonical form already", files(self.changed), self.unchanged)
+    }
+}
+
+/// Formats one file and says whether it was not in canonical form, or why it is left alone.
+fn format_input(input: &Input, arguments: &FmtArguments, streams: &mut Streams) -> Result<bool, String> {
+    let name = input.name(STDIN);
+    let bytes = input.read().map_err(|error| files::unreadable(&name, &error))?;
+    let sheet = Datasheet::new(Document::from_vec(bytes));
+    let before = sheet.document().to_bytes();
+    if Nature::of(before) != Nature::Text
+        || sheet.sections().all(|section| section.kind() == SectionKind::Unknown)
+    {
+        return Err(format!("{name}: left alone, this is no CANopen file; `edskit lint` says what it is"));
+    }
+    let after = format(&sheet);
+    let changed = after != before;
+    let written = if arguments.diff {
+        if changed { streams.stdout.write_all(diff(&name, &sheet, &after).as_bytes()) } else { Ok(()) }
+    } else if arguments.check {
+        if changed { writeln!(streams.stdout, "{name}") } else { Ok(()) }
+    } else {
+        match input {
+            Input::Stdin(_) => streams.stdout.write_all(&after),
+            Input::File(path) if changed => fs::write(path, &after),
+            Input::File(_) => Ok(()),
+        }
+    };
+    written.map_err(|error| format!("{name}: cannot be written: {error}"))?;
+    Ok(changed)
+}
+
+/// A unified diff of the two texts as people read them.
+fn diff(name: &str, sheet: &Datasheet, after: &[u8]) -> String {
+    let encoding = sheet.document().encoding();
+    let before = encoding.decode(sheet.document().to_bytes());
+    let after = encoding.decode(after);
+    TextDiff::from_lines(before.as_ref(), after.as_ref())
+        .unified_diff()
+        .context_radius(3)
+        .header(name, &format!("{name} (formatted)"))
+        .to_string()
+}

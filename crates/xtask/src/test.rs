@@ -1,0 +1,62 @@
+//! `cargo xtask test`: the one command that says whether everything holds.
+
+use crate::step::{Outcome, cargo, run};
+use crate::{is_ci, python, say};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// A heading, and what is done under it.
+type Step = (&'static str, fn() -> Outcome);
+
+/// What has to hold.
+const STEPS: &[Step] = &[
+    ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
+    ("lints", || run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
+    ("tests", || run(&mut cargo(&["test", "--workspace"]))),
+    ("documentation", documentation),
+    ("benchmarks compile", || run(&mut cargo(&["bench", "--workspace", "--no-run"]))),
+    ("fuzz targets compile", fuzz_targets),
+    ("independent reading of the corpus", python::independent_reading),
+];
+
+/// Runs every step, also behind one that failed, and ends with a summary.
+pub(crate) fn run_all() -> ExitCode {
+    let mut summary = Vec::new();
+    for (title, step) in STEPS {
+        say(format_args!("\n=== {title} ==="));
+        let start = Instant::now();
+        let outcome = match step() {
+            Outcome::LeftOut(reason) if is_ci() => {
+                Outcome::Failed(format!("left out, but this is CI: {reason}"))
+            }
+            outcome => outcome,
+        };
+        summary.push((title, outcome, start.elapsed()));
+    }
+    say("\n=== summary ===");
+    for (title, outcome, time) in &summary {
+        say(format_args!("{title:34} {:>5} s  {outcome}", time.as_secs()));
+    }
+    let failed = summary.iter().filter(|(_, outcome, _)| matches!(outcome, Outcome::Failed(_))).count();
+    if failed > 0 {
+        say(format_args!("FAILED: {failed} of {} steps", STEPS.len()));
+        return ExitCode::FAILURE;
+    }
+    say("everything holds");
+    ExitCode::SUCCESS
+}
+
+fn documentation() -> Outcome {
+    run(cargo(&["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+/// They are a workspace of their own, which the other steps do not see.
+fn fuzz_targets() -> Outcome {
+    let manifest = "--manifest-path=tests/fuzz/Cargo.toml";
+    match run(&mut cargo(&["fmt", manifest, "--check"])) {
+        Outcome::Passed => {
+            run(&mut cargo(&["clippy", manifest, "--target-dir=target/fuzz", "--", "-D", "warnings"]))
+        }
+        outcome => outcome,
+    }
+}
