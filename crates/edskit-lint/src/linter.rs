@@ -66,6 +66,10 @@ impl Linter {
             walk(&context, &self.checks(kind), &mut report);
         }
         let mut findings = report.into_findings();
+        for label in findings.iter_mut().flat_map(|finding| &mut finding.labels) {
+            // Rules count bytes; people and editors want to see characters.
+            label.span = context.document().whole_characters(label.span);
+        }
         self.rules.apply_severities(&mut findings);
         findings.sort_by(|a, b| {
             (a.span().start, a.rule.code, a.span().end).cmp(&(b.span().start, b.rule.code, b.span().end))
@@ -137,6 +141,14 @@ fn walk(context: &Context<'_>, checks: &Checks, report: &mut Report) {
 mod tests {
     use super::*;
     use crate::{MOST_FINDINGS, find};
+
+    #[test]
+    fn a_place_is_made_of_whole_characters() {
+        let text = "[1000]\nDataType=1\u{20AC}\n";
+        let linter = Linter::new(RuleSet::only(&find("invalid-number").unwrap()));
+        let findings = linter.lint(&Datasheet::parse(text.as_bytes()), FileKind::Eds, None);
+        assert_eq!(findings[0].span().slice(text.as_bytes()), "\u{20AC}".as_bytes());
+    }
 
     #[test]
     fn of_one_rule_only_so_many_findings_are_kept_and_the_last_says_so() {

@@ -124,6 +124,22 @@ impl Document {
         self.encoding.decode(self.slice(span))
     }
 
+    /// `span`, made longer where it would cut a UTF-8 character in two.
+    pub fn whole_characters(&self, span: Span) -> Span {
+        if self.encoding != Encoding::Utf8 {
+            return span;
+        }
+        let is_inside = |offset: u32| self.bytes.get(offset as usize).is_some_and(|byte| byte & 0xC0 == 0x80);
+        let Span { mut start, mut end } = span;
+        while is_inside(start) {
+            start -= 1;
+        }
+        while is_inside(end) {
+            end += 1;
+        }
+        Span::new(start, end)
+    }
+
     /// Line and column of a byte offset.
     pub fn position(&self, offset: u32) -> Position {
         position::locate(self, offset)

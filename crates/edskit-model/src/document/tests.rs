@@ -88,6 +88,15 @@ fn columns_count_characters_in_either_encoding() {
 }
 
 #[test]
+fn a_span_can_be_made_to_hold_whole_characters() {
+    let document = Document::parse("a=\u{20AC}x".as_bytes());
+    assert_eq!(document.whole_characters(Span::new(3, 4)), Span::new(2, 5));
+    assert_eq!(document.whole_characters(Span::new(2, 5)), Span::new(2, 5));
+    assert_eq!(document.whole_characters(Span::at(6)), Span::at(6));
+    assert_eq!(Document::parse(b"a=\x80\x80").whole_characters(Span::new(3, 4)), Span::new(3, 4));
+}
+
+#[test]
 fn positions_at_the_end_of_the_file_exist() {
     assert_eq!(Document::parse(b"").position(0), Position { line: 1, column: 1 });
     assert_eq!(Document::parse(b"a=1").position(3), Position { line: 1, column: 4 });

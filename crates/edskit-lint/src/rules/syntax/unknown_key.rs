@@ -44,11 +44,16 @@ rule! {
     }
 }
 
+/// How many different keys are compared with the known ones, and how many entries a section may have for that. A file
+/// with more unknown ones is not full of slips.
+const MOST_COMPARED: usize = 1_000;
+
 fn check(context: &Context<'_>, report: &mut Report) {
     let is_listed = |name: KeyName| name == KeyName::Unknown || is_reserved(name);
     if !context.sheet.entries().any(|entry| is_listed(entry.key().name)) {
         return;
     }
+    let mut suggestions: HashMap<(KeyGroup, String), Option<String>> = HashMap::new();
     let mut groups: HashMap<(KeyGroup, String), usize> = HashMap::new();
     let mut listed: Vec<(Section<'_>, Entry<'_>, usize)> = Vec::new();
     for section in context.sheet.sections() {
@@ -65,11 +70,14 @@ fn check(context: &Context<'_>, report: &mut Report) {
             if is_owned_elsewhere(group, &text) || is_list_item(section, entry) {
                 continue;
             }
-            if name == KeyName::Unknown
-                && let Some(known) = suggestion(section, &text)
-            {
-                misspelt(entry, &known, report);
-                continue;
+            if name == KeyName::Unknown {
+                let compare = suggestions.len() < MOST_COMPARED;
+                let known = suggestions.entry((group, text.to_string()));
+                let known = known.or_insert_with(|| compare.then(|| suggestion(group, &text)).flatten());
+                if let Some(known) = known.as_deref().filter(|known| is_missing(section, known)) {
+                    misspelt(entry, known, report);
+                    continue;
+                }
             }
             let stem = text.chars().filter(|c| !c.is_ascii_digit()).collect::<String>().to_ascii_lowercase();
             let position = *groups.entry((group, stem)).or_insert(listed.len());
@@ -111,21 +119,26 @@ fn is_list_item(section: Section<'_>, entry: Entry<'_>) -> bool {
     section.kind().is_object_list() && index().is_some_and(|index| section.sheet().object(index).is_some())
 }
 
-/// The key that was meant: one of the section that it does not have yet.
-fn suggestion(section: Section<'_>, text: &str) -> Option<String> {
+/// The key that was meant.
+fn suggestion(group: KeyGroup, text: &str) -> Option<String> {
     // Of a comment in another language the key behind the mark is not missing but left out on purpose.
     if is_comment(text) {
         return None;
     }
     let tail = text.trim_start_matches(|c: char| !c.is_ascii_digit());
     let number = tail.chars().take_while(char::is_ascii_digit).collect::<String>().parse().unwrap_or(0);
-    let keys = KeyGroup::of(section.kind()).keys().iter().filter(|name| **name != KeyName::Item);
+    let keys = group.keys().iter().filter(|name| **name != KeyName::Item);
     let spelt: Vec<String> = keys.filter_map(|&name| Key { name, number }.canonical()).collect();
     let digits = |text: &str| text.chars().filter(char::is_ascii_digit).collect::<String>();
-    let known =
-        nearest(text, spelt.iter().map(String::as_str)).filter(|known| digits(known) == digits(text))?;
+    let known = nearest(text, spelt.iter().map(String::as_str));
+    known.filter(|known| digits(known) == digits(text)).map(str::to_owned)
+}
+
+/// Whether the section does not have the key yet.
+fn is_missing(section: Section<'_>, known: &str) -> bool {
     let key = Key::of(KeyGroup::of(section.kind()), known.as_bytes());
-    section.entries().all(|entry| entry.key() != key).then(|| known.to_owned())
+    let mut keys = section.keys();
+    keys.len() <= MOST_COMPARED && keys.all(|other| other != key)
 }
 
 fn is_comment(text: &str) -> bool {

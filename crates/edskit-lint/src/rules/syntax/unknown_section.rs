@@ -9,7 +9,8 @@ rule! {
     ///
     /// ## What it does
     /// Lists the sections that CiA 306 does not know. Sections whose names differ only in the number at their end are
-    /// listed once. A name that looks like a known one, and a sub-index above FFh, is a warning.
+    /// listed once. A name that looks like a known one is a warning. A sub-index above FFh is the matter of
+    /// sub-index-too-large.
     ///
     /// ## Why is this bad
     /// Extensions are allowed, and other tools skip them. But a misspelt section is skipped in the same way, with
@@ -48,16 +49,23 @@ rule! {
 const EXTENSIONS: [(&str, &str); 2] =
     [("TypeDefinitions", "CANopenEditor"), ("StandardDataTypes", "CANFestival")];
 
+/// How many names are compared with the known ones. A file with more unknown ones is not full of slips.
+const MOST_COMPARED: usize = 1_000;
+
 fn check(context: &Context<'_>, report: &mut Report) {
+    let mut compared = 0;
     let mut groups: HashMap<String, usize> = HashMap::new();
     let mut listed: Vec<(Section<'_>, usize)> = Vec::new();
     for section in context.sheet.sections().filter(|section| section.kind() == SectionKind::Unknown) {
         let name = section.name();
-        // SYN006 reports headers that are not even well formed.
-        if name.is_empty() || section.line().closing_bracket().is_none() {
+        // SYN006 reports headers that are not even well formed, OBJ027 sub-indices that are too large.
+        if name.is_empty() || section.line().closing_bracket().is_none() || has_large_sub_index(&name) {
             continue;
         }
-        if let Some(known) = suggestion(context, &name) {
+        compared += 1;
+        if compared <= MOST_COMPARED
+            && let Some(known) = suggestion(context, &name)
+        {
             misspelt(context, section, &known, report);
             continue;
         }
@@ -89,19 +97,6 @@ fn unknown(section: Section<'_>, count: usize, report: &mut Report) {
         2 => ", and there is one more of the kind".to_owned(),
         _ => format!(", and there are {} more of the kind", count - 1),
     };
-    if let Some((index, sub)) = split_object(&name).and_then(|(index, rest)| Some((index, sub_digits(rest)?)))
-    {
-        let finding = report
-            .add(section.name_span(), format!("the sub-index of `[{name}]` is above FFh{others}"))
-            .severity(Severity::Warning);
-        match sub.parse::<u8>() {
-            Ok(decimal) => finding.help(format!(
-                "sub-indices are hexadecimal: write `[{index}sub{decimal:X}]` if {sub} is decimal, and check the others"
-            )),
-            Err(_) => finding.help("a sub-index has two hexadecimal digits at most"),
-        };
-        return;
-    }
     let finding = report.add(section.name_span(), format!("`[{name}]` is not a section of CiA 306{others}"));
     if let Some((_, tool)) = EXTENSIONS.iter().find(|(known, _)| name.eq_ignore_ascii_case(known)) {
         finding.help(format!("it is an extension of {tool}; other tools skip it"));
@@ -151,11 +146,14 @@ fn split_object(name: &str) -> Option<(&str, &str)> {
     index.bytes().all(|byte| byte.is_ascii_hexdigit()).then_some((index, rest)).filter(|_| !rest.is_empty())
 }
 
-/// The digits behind `sub`.
-fn sub_digits(rest: &str) -> Option<&str> {
-    let (word, digits) = rest.split_at_checked("sub".len())?;
-    let is_number = digits.len() > 2 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    (is_number && word.eq_ignore_ascii_case("sub")).then_some(digits)
+/// Whether more than two digits stand behind `sub`.
+fn has_large_sub_index(name: &str) -> bool {
+    let sub_index = split_object(name).and_then(|(_, rest)| rest.split_at_checked("sub".len()));
+    sub_index.is_some_and(|(word, digits)| {
+        word.eq_ignore_ascii_case("sub")
+            && digits.len() > 2
+            && digits.bytes().all(|byte| byte.is_ascii_hexdigit())
+    })
 }
 
 #[cfg(test)]
@@ -210,13 +208,6 @@ mod tests {
     #[test]
     fn numbers_that_are_too_large() {
         let text = "[4900]\n[4900sub99]\n[4900sub100]\n[4900sub101]\n[4901sub1FF]\n[10000]\n";
-        assert_eq!(
-            findings(&UNKNOWN_SECTION, text),
-            [
-                "3:2 warning: the sub-index of `[4900sub100]` is above FFh, and there is one more of the kind",
-                "5:2 warning: the sub-index of `[4901sub1FF]` is above FFh",
-                "6:2 warning: `[10000]` is not a section of CiA 306",
-            ]
-        );
+        assert_eq!(findings(&UNKNOWN_SECTION, text), ["6:2 warning: `[10000]` is not a section of CiA 306",]);
     }
 }
