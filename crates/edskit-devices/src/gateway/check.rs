@@ -12,7 +12,7 @@ pub const ERR_CAN_OPEN: u16 = 3074;
 pub const INITIALISATION_ATTEMPTS: u8 = 3;
 
 /// The rules of 7.3: no two active PDOs of any direction on one identifier (GW-CFG-18), and none on 000h, 080h or 100h
-/// (GW-CFG-19 to GW-CFG-21). SDO and heartbeats are among the [claims](PdoTable::claims).
+/// (GW-CFG-19, GW-CFG-20, GW-CFG-21). SDO and heartbeats are among the [claims](PdoTable::claims).
 ///
 /// What else CiA 301 restricts is not looked at (GW-CFG-29, GW-NOTE-19).
 pub const RULES: IdentifierRules<'static> = IdentifierRules {

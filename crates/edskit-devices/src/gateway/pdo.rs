@@ -94,7 +94,7 @@ pub enum Source {
     },
     /// The engine status (GW-PDO-02).
     EngineStatus,
-    /// A parameter of the governor (GW-PDO-04).
+    /// A parameter of the governor, in its internal range of values (GW-PDO-04, GW-PDO-07).
     Signal {
         /// The parameter that chooses it.
         assignment: Parameter,

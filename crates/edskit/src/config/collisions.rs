@@ -14,7 +14,18 @@ const FREE_IDENTIFIERS: std::ops::RangeInclusive<u16> = 0x680..=0x6DF;
 
 /// Everything that the gateway itself refuses.
 pub(super) fn refused(reading: &Reading, table: &PdoTable) -> Vec<Problem> {
-    found(table, &RULES).iter().filter_map(|conflict| refusal(reading, table, conflict)).collect()
+    let found = found(table, &RULES);
+    // TPDOs whose identifier was left at 000h are each in the way of NMT, and need not be told of each other.
+    let is_with_service = |conflict: &&Conflict| match conflict.with {
+        Opponent::Party(other) => table.find(other).is_none(),
+        Opponent::Restricted(_) => false,
+    };
+    let services: Vec<CanId> = found.iter().filter(is_with_service).map(|conflict| conflict.can_id).collect();
+    found
+        .iter()
+        .filter(|conflict| is_with_service(conflict) || !services.contains(&conflict.can_id))
+        .filter_map(|conflict| refusal(reading, table, conflict))
+        .collect()
 }
 
 /// What the gateway accepts and CiA 301 restricts (GW-NOTE-19).

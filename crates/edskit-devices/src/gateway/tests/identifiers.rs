@@ -80,7 +80,7 @@ fn the_example_on_node_127_collides_with_rpdo_4() {
 
 #[test]
 fn every_forbidden_identifier_is_found() {
-    // GW-CFG-18 to GW-CFG-25
+    // GW-CFG-18, GW-CFG-19, GW-CFG-20, GW-CFG-21, GW-CFG-22, GW-CFG-23, GW-CFG-24, GW-CFG-25
     let forbidden = [
         (0x000, "NMT"),
         (0x080, "SYNC"),

@@ -47,7 +47,8 @@ fn heartbeat_times() {
 
 #[test]
 fn the_formula_of_the_governor() {
-    // GW-TIMING-02, GW-TIMING-03, GW-TIMING-05, GW-TIMING-07, GW-TIMING-08, GW-NOTE-06, GW-NOTE-08
+    // GW-TIMING-02, GW-TIMING-03, GW-TIMING-05, GW-TIMING-07, GW-TIMING-08, GW-NOTE-06, GW-NOTE-08; GW-CFG-11: one
+    // main cycle is the only minimum, for monitoring times too.
     assert_eq!(MainCycle::GOVERNOR.period(0), None);
     for setting in 1..=u16::MAX {
         let period = MainCycle::GOVERNOR.period(setting).unwrap();
@@ -67,7 +68,7 @@ fn the_formula_of_the_governor() {
 
 #[test]
 fn the_formula_of_the_gateway() {
-    // GW-TIMING-12, GW-TIMING-13, GW-NOTE-06
+    // GW-TIMING-12, GW-TIMING-13, GW-NOTE-06, GW-NOTE-26
     assert_eq!(MainCycle::GATEWAY.period(0), None);
     for setting in 1..=u16::MAX {
         let period = MainCycle::GATEWAY.period(setting).unwrap();
