@@ -4,7 +4,9 @@ mod bad_input;
 mod explain;
 mod fmt;
 mod help;
+mod fix;
 mod lint;
+mod settings;
 mod show;
 
 use edskit::{Exit, Streams};

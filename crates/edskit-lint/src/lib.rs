@@ -9,6 +9,7 @@
 mod context;
 mod edits;
 mod finding;
+mod fixer;
 mod inline_comment;
 mod linter;
 mod listing;
@@ -18,12 +19,14 @@ mod rule;
 mod rule_set;
 pub mod rules;
 mod similar;
+mod suppression;
 #[cfg(test)]
 mod testing;
 mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
+pub use fixer::{Fixed, fix};
 pub use linter::Linter;
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,

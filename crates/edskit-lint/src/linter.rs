@@ -3,6 +3,7 @@
 use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
+use crate::suppression;
 use crate::{Check, FileKind, Finding, RuleSet};
 use edskit_model::Datasheet;
 
@@ -70,6 +71,7 @@ impl Linter {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);
         }
+        suppression::apply(&context, &self.rules, &mut findings);
         self.rules.apply_severities(&mut findings);
         findings.sort_by(|a, b| {
             (a.span().start, a.rule.code, a.span().end).cmp(&(b.span().start, b.rule.code, b.span().end))

@@ -58,6 +58,27 @@ pub(crate) struct LintArguments {
     /// Exit with 1 from this severity on
     #[arg(long, value_name = "SEVERITY", value_enum, default_value_t = FailOn::Warning)]
     pub(crate) fail_on: FailOn,
+    /// Apply the safe fixes to the files, and report what is left
+    #[arg(long)]
+    pub(crate) fix: bool,
+    /// With --fix or --diff: apply fixes too that are right only if the intent was guessed right
+    #[arg(long)]
+    pub(crate) unsafe_fixes: bool,
+    /// Change no file; print what --fix would change
+    #[arg(long, conflicts_with = "fix")]
+    pub(crate) diff: bool,
+    /// Use these settings instead of the edskit.toml that is found upwards from each file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) config: Option<PathBuf>,
+    /// Heed no edskit.toml
+    #[arg(long, conflicts_with = "config")]
+    pub(crate) isolated: bool,
+    /// Show only findings that are not in this baseline
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) baseline: Option<PathBuf>,
+    /// Write all findings into the baseline, so that later runs show only new ones
+    #[arg(long, requires = "baseline", conflicts_with_all = ["fix", "diff"])]
+    pub(crate) update_baseline: bool,
     /// Print how often each rule fires instead of the findings
     #[arg(long)]
     pub(crate) statistics: bool,

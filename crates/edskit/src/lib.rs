@@ -3,6 +3,7 @@
 //! This is the only crate of the desk half that opens files, knows a terminal and knows JSON.
 
 mod cli;
+mod difference;
 mod explain;
 mod files;
 mod fmt;
@@ -10,6 +11,7 @@ mod generated;
 mod lint;
 mod positions;
 mod printable;
+mod settings;
 mod show;
 mod streams;
 

@@ -1,0 +1,6 @@
+//! COB: COB-IDs and CAN-IDs.
+
+use crate::Rule;
+
+/// The rules of the group, sorted by code.
+pub(super) const RULES: &[&Rule] = &[];

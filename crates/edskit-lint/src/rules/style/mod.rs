@@ -1,0 +1,6 @@
+//! STY: style.
+
+use crate::Rule;
+
+/// The rules of the group, sorted by code.
+pub(super) const RULES: &[&Rule] = &[];
