@@ -31,7 +31,8 @@ fn unsafe_fixes_are_asked_for() {
 fn a_difference_changes_nothing() {
     let folder = Folder::new("fix-diff");
     let path = folder.write("a.eds", TEXT);
-    let output = edskit(&["lint", "--diff", "--quiet", "--format", "concise", "--select", "SYN009,OBJ005", &path]);
+    let output =
+        edskit(&["lint", "--diff", "--quiet", "--format", "concise", "--select", "SYN009,OBJ005", &path]);
     insta::assert_snapshot!("fix_diff", folder.clean(&output).replace('\r', ""));
     assert_eq!(folder.read("a.eds"), TEXT.as_bytes());
 }

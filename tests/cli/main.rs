@@ -2,9 +2,9 @@
 
 mod bad_input;
 mod explain;
+mod fix;
 mod fmt;
 mod help;
-mod fix;
 mod lint;
 mod settings;
 mod show;

@@ -7,10 +7,13 @@ const BAD: &str = "[2000]\n[2000]\n[2000sub0]\nDataType=0x0007\n";
 
 fn codes(folder: &Folder, arguments: &[&str]) -> Vec<String> {
     let output = edskit(&[&["lint", "--format", "concise", "--quiet", folder.path()], arguments].concat());
+    // A line reads `FOLDER/a.eds:1:2: error[SYN013] message`.
     let code = |line: &str| {
-        let (place, rest) = line.split_once(": ").unwrap();
-        let file = place.rsplit_once('/').unwrap().1.split(':').next().unwrap().to_owned();
-        format!("{file} {}", rest.split(']').next().unwrap().replace('[', " "))
+        let (place, rest) = line.split_once(": ").expect("a place");
+        let (_, file) = place.rsplit_once('/').expect("a folder");
+        let (file, _) = file.split_once(':').expect("a line number");
+        let (rule, _) = rest.split_once(']').expect("a code");
+        format!("{file} {}", rule.replace('[', " "))
     };
     output.stdout.lines().map(code).collect()
 }
@@ -39,7 +42,10 @@ fn overrides_are_for_some_files() {
     );
     folder.write("own.eds", BAD);
     folder.write("vendor/theirs.eds", BAD);
-    assert_eq!(codes(&folder, &[]), ["own.eds error SYN013", "own.eds error OBJ013", "theirs.eds warning SYN013"]);
+    assert_eq!(
+        codes(&folder, &[]),
+        ["own.eds error SYN013", "own.eds error OBJ013", "theirs.eds warning SYN013"]
+    );
 }
 
 #[test]
@@ -66,7 +72,10 @@ fn mistakes_in_settings_have_a_place() {
 #[test]
 fn comments_silence_findings() {
     let folder = Folder::new("suppression");
-    folder.write("a.eds", format!(";edskit: allow-file(SYN013) both are meant\n{BAD};edskit: allow(OBJ013)\nx=1\n"));
+    folder.write(
+        "a.eds",
+        format!(";edskit: allow-file(SYN013) both are meant\n{BAD};edskit: allow(OBJ013)\nx=1\n"),
+    );
     let all = ["--select", "SYN013,OBJ013,SYN027"];
     assert_eq!(codes(&folder, &all), ["a.eds error OBJ013", "a.eds warning SYN027"]);
 }
@@ -76,7 +85,17 @@ fn a_baseline_hides_what_is_known() {
     let folder = Folder::new("baseline");
     folder.write("a.eds", BAD);
     let baseline = format!("{}/known.json", folder.path());
-    let rules = ["lint", folder.path(), "--isolated", "--select", "SYN013,OBJ013", "--format", "concise", "--baseline", &baseline];
+    let rules = [
+        "lint",
+        folder.path(),
+        "--isolated",
+        "--select",
+        "SYN013,OBJ013",
+        "--format",
+        "concise",
+        "--baseline",
+        &baseline,
+    ];
     let missing = edskit(&rules);
     assert_eq!(missing.exit, Exit::Failed);
     insta::assert_snapshot!("baseline_missing", folder.clean(&missing));
@@ -84,7 +103,10 @@ fn a_baseline_hides_what_is_known() {
     insta::assert_snapshot!("baseline_update", folder.clean(&update));
     insta::assert_snapshot!("baseline_file", String::from_utf8(folder.read("known.json")).unwrap());
     let clean = edskit(&rules);
-    assert_eq!((clean.exit, clean.stdout.as_str()), (Exit::Clean, "1 file, no findings, 2 known from the baseline\n"));
+    assert_eq!(
+        (clean.exit, clean.stdout.as_str()),
+        (Exit::Clean, "1 file, no findings, 2 known from the baseline\n")
+    );
     // Moved lines are still known; another finding of the same kind is new.
     folder.write("a.eds", format!(";moved\n\n{BAD}[2001sub0]\nDataType=0x0007\n"));
     let new = edskit(&rules);

@@ -33,3 +33,4 @@ pub use rule::{
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};
+pub use similar::nearest;

@@ -24,6 +24,8 @@ pub(crate) enum Command {
     Fmt(FmtArguments),
     /// Show the device that a file describes, one object, or one entry
     Show(ShowArguments),
+    /// Check parameter files of devices
+    Config(ConfigArguments),
     /// Say what rules report, why, and what to write instead
     Explain(ExplainArguments),
     /// Print a completion script for a shell
@@ -139,6 +141,20 @@ pub(crate) enum Color {
     Never,
 }
 
+impl Color {
+    /// Whether to use colour where results go to a terminal or not.
+    pub(crate) fn is_wanted(self, to_terminal: bool) -> bool {
+        match self {
+            Self::Always => true,
+            Self::Never => false,
+            Self::Auto => {
+                let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+                to_terminal && !refused
+            }
+        }
+    }
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct FmtArguments {
     /// Files, or folders that are searched for .eds, .dcf and .cpj files; `-` formats standard input to standard output
@@ -181,6 +197,48 @@ pub(crate) enum ShowFormat {
 pub(crate) struct Place {
     pub(crate) index: u16,
     pub(crate) sub_index: Option<u8>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigArguments {
+    #[command(subcommand)]
+    pub(crate) command: ConfigCommand,
+}
+
+#[derive(Subcommand, Debug)]
+pub(crate) enum ConfigCommand {
+    /// Check a parameter file, and print the PDOs that follow from it
+    ///
+    /// The file is TOML. It names the device (`device = "heinzmann-canopen-gateway"`) and gives the parameters of the
+    /// gateway and of the governor behind it; docs/gateway-parameters.md describes it.
+    Check(ConfigCheckArguments),
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigCheckArguments {
+    /// The file; `-` reads standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// How it is printed
+    #[arg(long, value_enum, default_value_t = ConfigFormat::Human)]
+    pub(crate) format: ConfigFormat,
+    /// Exit with 1 from this severity on
+    #[arg(long, value_name = "SEVERITY", value_enum, default_value_t = FailOn::Warning)]
+    pub(crate) fail_on: FailOn,
+    /// Print findings only: no PDOs, no summary
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// When to use colour
+    #[arg(long, value_enum, default_value_t = Color::Auto)]
+    pub(crate) color: Color,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ConfigFormat {
+    /// Source excerpts with labels, then a table of the PDOs
+    Human,
+    /// JSON
+    Json,
 }
 
 #[derive(Args, Debug)]

@@ -3,15 +3,15 @@
 mod baseline;
 mod concise;
 mod github;
-mod human;
-mod json;
+pub(crate) mod human;
+pub(crate) mod json;
 mod junit;
 mod report;
 mod sarif;
 mod source;
 mod statistics;
 
-use crate::cli::{Color, LintArguments, LintFormat};
+use crate::cli::{LintArguments, LintFormat};
 use crate::files::{self, Input};
 use crate::positions::Located;
 use crate::printable;
@@ -62,7 +62,8 @@ pub(crate) fn run(arguments: &LintArguments, streams: &mut Streams) -> io::Resul
         },
         _ => None,
     };
-    let style = human::Style { color: use_color(arguments, streams), width: streams.width };
+    let to_terminal = streams.is_terminal && arguments.output.is_none();
+    let style = human::Style { color: arguments.color.is_wanted(to_terminal), width: streams.width };
     let progress = progress(jobs.len(), arguments, streams);
     let files = jobs
         .par_iter()
@@ -149,17 +150,6 @@ fn on_top(mut rules: RuleSet, arguments: &LintArguments) -> Result<RuleSet, Unkn
     Ok(rules)
 }
 
-fn use_color(arguments: &LintArguments, streams: &Streams) -> bool {
-    match arguments.color {
-        Color::Always => true,
-        Color::Never => false,
-        Color::Auto => {
-            let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-            streams.is_terminal && arguments.output.is_none() && !refused
-        }
-    }
-}
-
 fn progress(files: usize, arguments: &LintArguments, streams: &Streams) -> ProgressBar {
     if arguments.quiet || !streams.is_terminal || files < FILES_WORTH_A_BAR {
         return ProgressBar::hidden();
@@ -212,7 +202,7 @@ fn lint_file(
     };
     // Excerpts need the text, which is gone once the file is done.
     let excerpts = if arguments.format == LintFormat::Human && !arguments.statistics {
-        human::excerpts(&name, &sheet, &findings, style)
+        human::excerpts(&name, sheet.document(), &findings, style)
     } else {
         String::new()
     };
