@@ -7,7 +7,9 @@
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
 mod context;
+mod described;
 mod edits;
+mod evaluate;
 mod finding;
 mod fixer;
 mod inline_comment;
@@ -15,6 +17,7 @@ mod linter;
 mod listing;
 mod missing;
 mod odd_lines;
+mod profile;
 mod rule;
 mod rule_set;
 pub mod rules;
@@ -28,6 +31,7 @@ pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use fixer::{Fixed, fix};
 pub use linter::Linter;
+pub use profile::{Profile, ProfileError};
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
     ObjectCheck, Rule, SectionCheck, VariableCheck,

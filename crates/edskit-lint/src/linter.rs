@@ -4,8 +4,9 @@ use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
 use crate::suppression;
-use crate::{Check, FileKind, Finding, RuleSet};
+use crate::{Check, FileKind, Finding, Profile, RuleSet};
 use edskit_model::Datasheet;
+use std::sync::Arc;
 
 /// Runs a set of rules over files.
 ///
@@ -19,6 +20,7 @@ use edskit_model::Datasheet;
 /// ```
 pub struct Linter {
     rules: RuleSet,
+    profiles: Arc<[Profile]>,
 }
 
 /// The checks of one run by level, so that the walk makes no decision per rule.
@@ -43,7 +45,13 @@ struct Active<F> {
 impl Linter {
     /// A linter with these rules.
     pub fn new(rules: RuleSet) -> Self {
-        Self { rules }
+        Self { rules, profiles: Arc::default() }
+    }
+
+    /// The same linter, which holds devices to these profiles besides those of CiA.
+    pub fn with_profiles(mut self, profiles: impl Into<Arc<[Profile]>>) -> Self {
+        self.profiles = profiles.into();
+        self
     }
 
     /// The rules.
@@ -57,7 +65,7 @@ impl Linter {
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
     /// finding that says what it is.
     pub fn lint(&self, sheet: &Datasheet, kind: FileKind, file_name: Option<&str>) -> Vec<Finding> {
-        let context = Context::new(sheet, kind, file_name);
+        let context = Context::new(sheet, kind, file_name).with_profiles(&self.profiles);
         let mut report = Report::new(&NOT_CANOPEN);
         if not_canopen::is_foreign(&context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {
@@ -128,12 +136,20 @@ fn walk(context: &Context<'_>, checks: &Checks, report: &mut Report) {
         }
     }
     if !checks.variable.is_empty() {
+        let mut prescriptions = Vec::new();
         for object in context.sheet.objects() {
-            let variable = Variable::new(object.index(), None, object.description());
+            context.profiles.find(object.index(), &mut prescriptions);
+            let variable = Variable::new(object.index(), None, object.description(), &prescriptions);
             run!(checks.variable, context, report, &variable);
         }
+        let mut index = None;
         for sub in context.sheet.sub_objects() {
-            let variable = Variable::new(sub.index(), Some(sub.sub_index()), sub.description());
+            if index != Some(sub.index()) {
+                context.profiles.find(sub.index(), &mut prescriptions);
+                index = Some(sub.index());
+            }
+            let variable =
+                Variable::new(sub.index(), Some(sub.sub_index()), sub.description(), &prescriptions);
             run!(checks.variable, context, report, &variable);
         }
     }

@@ -48,6 +48,9 @@ pub(crate) struct LintArguments {
     /// Write to this file instead of standard output
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) output: Option<PathBuf>,
+    /// Hold devices to this profile too, besides those of CiA; may be given several times
+    #[arg(long = "profile", value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) profiles: Vec<PathBuf>,
     /// Run only these rules: codes, names or prefixes of codes, or ALL
     #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
     pub(crate) select: Vec<String>,

@@ -12,6 +12,7 @@ mod generated;
 mod lint;
 mod positions;
 mod printable;
+mod profiles;
 mod settings;
 mod show;
 mod streams;

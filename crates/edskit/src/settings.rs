@@ -1,6 +1,7 @@
 //! `edskit.toml`: which rules run where. It is found upwards from each file.
 
-use edskit_lint::{RuleSet, Severity, UnknownRule};
+use crate::profiles::{self, Unusable};
+use edskit_lint::{Profile, RuleSet, Severity, UnknownRule};
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
@@ -28,6 +29,8 @@ struct Table {
     /// Do not run these rules.
     #[serde(default)]
     ignore: Vec<Spanned<String>>,
+    /// Profile files, relative to the folder of the file; not in an override.
+    profiles: Option<Spanned<Vec<Spanned<String>>>>,
     /// How bad the findings of a rule are.
     #[serde(default)]
     severity: BTreeMap<Spanned<String>, Severity>,
@@ -41,13 +44,19 @@ struct Table {
 pub(crate) struct Settings {
     folder: PathBuf,
     rules: RuleSet,
+    profiles: Arc<[Profile]>,
     overrides: Vec<(GlobSet, Table)>,
 }
 
 impl Settings {
     /// What holds without a file.
     pub(crate) fn none() -> Self {
-        Self { folder: PathBuf::new(), rules: RuleSet::default(), overrides: Vec::new() }
+        Self {
+            folder: PathBuf::new(),
+            rules: RuleSet::default(),
+            profiles: Arc::default(),
+            overrides: Vec::new(),
+        }
     }
 
     /// Reads and checks a file.
@@ -67,12 +76,17 @@ impl Settings {
         let unknown = |(span, error): (Range<usize>, UnknownRule)| at(span, error.to_string());
         let mut rules = RuleSet::default();
         table.change(&mut rules).map_err(unknown)?;
+        let listed = table.profiles.map(Spanned::into_inner).unwrap_or_default();
         let mut overrides = Vec::new();
         for wrapped in table.overrides {
             let span = wrapped.span();
             let table = wrapped.into_inner();
             if !table.overrides.is_empty() {
                 return Err(at(span, "an `[[override]]` cannot hold another".to_owned()));
+            }
+            if let Some(profiles) = &table.profiles {
+                let message = "profiles hold for all files: write `profiles` before the first table";
+                return Err(at(profiles.span(), message.to_owned()));
             }
             let Some(files) = &table.files else {
                 return Err(at(span, "an `[[override]]` needs `files`, a list of globs".to_owned()));
@@ -83,7 +97,17 @@ impl Settings {
         }
         let folder =
             absolute(path).ok().and_then(|path| path.parent().map(Path::to_path_buf)).unwrap_or_default();
-        Ok(Self { folder, rules, overrides })
+        let mut profiles = Vec::new();
+        for name in listed {
+            let read = profiles::read(&folder.join(name.get_ref()));
+            profiles.push(read.map_err(|error| SettingsError::profile(error, at, name.span()))?);
+        }
+        Ok(Self { folder, rules, profiles: profiles.into(), overrides })
+    }
+
+    /// The profiles that devices are held to besides those of CiA.
+    pub(crate) fn profiles(&self) -> &Arc<[Profile]> {
+        &self.profiles
     }
 
     /// The rules for one file.
@@ -170,6 +194,22 @@ pub(crate) struct SettingsError {
     /// Line and column, from 1.
     place: Option<(usize, usize)>,
     message: String,
+}
+
+impl SettingsError {
+    /// A profile that is not there is a mistake of the settings; a mistake in the profile is one of its own.
+    fn profile(
+        error: Unusable,
+        at: impl Fn(Range<usize>, String) -> SettingsError,
+        span: Range<usize>,
+    ) -> SettingsError {
+        match error {
+            Unusable::Unreadable(..) => at(span, error.to_string()),
+            Unusable::Wrong(path, error) => {
+                Self { path, place: Some((error.line, error.column)), message: error.message }
+            }
+        }
+    }
 }
 
 impl fmt::Display for SettingsError {

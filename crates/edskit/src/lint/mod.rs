@@ -15,10 +15,11 @@ use crate::cli::{LintArguments, LintFormat};
 use crate::files::{self, Input};
 use crate::positions::Located;
 use crate::printable;
+use crate::profiles;
 use crate::settings::{Finder, Settings};
 use crate::{Exit, Streams};
 use baseline::{Baseline, Fingerprint};
-use edskit_lint::{Applicability, FileKind, Finding, Linter, RuleSet, UnknownRule};
+use edskit_lint::{Applicability, FileKind, Finding, Linter, Profile, RuleSet, UnknownRule};
 use edskit_model::{Datasheet, Document};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
@@ -114,6 +115,8 @@ fn jobs(inputs: Vec<Input>, arguments: &LintArguments) -> Result<Vec<Job>, Strin
         None => None,
     };
     let nothing = Arc::new(Settings::none());
+    let own = arguments.profiles.iter().map(|path| profiles::read(path));
+    let own: Vec<Profile> = own.collect::<Result<_, _>>().map_err(|error| error.to_string())?;
     let job = |input: Input| {
         let path = match &input {
             Input::File(path) => path.clone(),
@@ -129,7 +132,11 @@ fn jobs(inputs: Vec<Input>, arguments: &LintArguments) -> Result<Vec<Job>, Strin
             }
         };
         let rules = on_top(settings.rules_for(&path), arguments).map_err(|error| error.to_string())?;
-        Ok(Job { input, linter: Linter::new(rules) })
+        let profiles = match &own[..] {
+            [] => Arc::clone(settings.profiles()),
+            own => settings.profiles().iter().chain(own).cloned().collect(),
+        };
+        Ok(Job { input, linter: Linter::new(rules).with_profiles(profiles) })
     };
     // Selectors of the command line are wrong even where there is no file.
     on_top(RuleSet::default(), arguments).map_err(|error| error.to_string())?;
