@@ -6,6 +6,7 @@ mod fix;
 mod fmt;
 mod help;
 mod lint;
+mod neighbours;
 mod profiles;
 mod settings;
 mod show;

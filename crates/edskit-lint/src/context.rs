@@ -2,8 +2,10 @@
 
 use crate::listing::Listing;
 use crate::odd_lines::{self, OddLine};
+use crate::pdos::{self, DescribedPdo};
 use crate::profile::{Applied, Prescribed, Prescription, Profile};
-use crate::{FileKind, Finding, Label, Rule};
+use crate::rules::cob_id::JudgedCobId;
+use crate::{FileKind, Finding, Label, Neighbours, Rule};
 use core::cell::OnceCell;
 use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
@@ -16,19 +18,34 @@ pub struct Context<'a> {
     pub kind: FileKind,
     /// The file's own name without folders, where it has one.
     pub file_name: Option<&'a str>,
+    /// The files beside it, where the caller knows them.
+    pub neighbours: Option<&'a dyn Neighbours>,
     /// The profiles that the device follows.
     pub(crate) profiles: Applied<'a>,
     /// The lists of objects, once a rule has asked for them.
     listing: OnceCell<Listing>,
     /// The odd lines, once a rule has asked for them.
     odd_lines: OnceCell<Vec<OddLine>>,
+    /// The PDOs, once a rule has asked for them.
+    pdos: OnceCell<Vec<DescribedPdo<'a>>>,
+    /// The COB-IDs, once a rule has asked for them.
+    cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
 }
 
 impl<'a> Context<'a> {
     /// A file to be linted, held to the profiles of CiA.
     pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
-        let profiles = Applied::new(sheet);
-        Self { sheet, kind, file_name, profiles, listing: OnceCell::new(), odd_lines: OnceCell::new() }
+        Self {
+            sheet,
+            kind,
+            file_name,
+            neighbours: None,
+            profiles: Applied::new(sheet),
+            listing: OnceCell::new(),
+            odd_lines: OnceCell::new(),
+            pdos: OnceCell::new(),
+            cob_ids: OnceCell::new(),
+        }
     }
 
     /// The same, held to these profiles too.
@@ -50,6 +67,16 @@ impl<'a> Context<'a> {
     /// The entries on those lines.
     pub(crate) fn odd_entries(&self) -> impl Iterator<Item = Entry<'a>> {
         self.odd_lines().iter().filter_map(|line| line.entry(self.sheet))
+    }
+
+    /// The described PDOs, read once for all rules.
+    pub(crate) fn pdos(&self) -> &[DescribedPdo<'a>] {
+        self.pdos.get_or_init(|| pdos::read(self.sheet))
+    }
+
+    /// The COB-IDs of messages besides SYNC and the default SDO channel, judged once for all rules.
+    pub(crate) fn cob_ids(&self) -> &[JudgedCobId<'a>] {
+        self.cob_ids.get_or_init(|| JudgedCobId::all(self))
     }
 
     /// The text.

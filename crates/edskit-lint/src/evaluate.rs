@@ -85,7 +85,7 @@ impl<'a> Effective<'a> {
 
 /// Every value that a variable says: DefaultValue, ParameterValue, and the entries of `[xxxxValue]` of a compact object.
 pub(crate) fn stated<'a>(
-    context: &Context<'a>,
+    context: &'a Context<'_>,
     variable: &Variable<'a>,
 ) -> impl Iterator<Item = Effective<'a>> {
     let data_type = variable.standard_type.unwrap_or(DataType::Unsigned64);

@@ -32,11 +32,16 @@ pub fn fix(
     file_name: Option<&str>,
     least: Applicability,
 ) -> Fixed {
-    let findings = linter.lint(&sheet, kind, file_name);
+    fix_with(sheet, least, |sheet| linter.lint(sheet, kind, file_name))
+}
+
+/// The same with any way to lint, such as one that knows the neighbours of the file.
+pub fn fix_with(sheet: Datasheet, least: Applicability, lint: impl Fn(&Datasheet) -> Vec<Finding>) -> Fixed {
+    let findings = lint(&sheet);
     let mut state = Fixed { sheet, findings, applied: 0, converged: true };
     let lint = |bytes: Vec<u8>| {
         let sheet = Datasheet::new(Document::from_vec(bytes));
-        let findings = linter.lint(&sheet, kind, file_name);
+        let findings = lint(&sheet);
         (sheet, findings)
     };
     for _ in 0..MOST_ROUNDS {

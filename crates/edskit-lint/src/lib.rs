@@ -16,7 +16,9 @@ mod inline_comment;
 mod linter;
 mod listing;
 mod missing;
+mod neighbours;
 mod odd_lines;
+mod pdos;
 mod profile;
 mod rule;
 mod rule_set;
@@ -29,11 +31,12 @@ mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
-pub use fixer::{Fixed, fix};
+pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
+pub use neighbours::Neighbours;
 pub use profile::{Profile, ProfileError};
 pub use rule::{
-    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
+    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck, NODE_LISTS,
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};

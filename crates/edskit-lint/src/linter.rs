@@ -4,7 +4,7 @@ use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
 use crate::suppression;
-use crate::{Check, FileKind, Finding, Profile, RuleSet};
+use crate::{Check, FileKind, Finding, Neighbours, Profile, RuleSet};
 use edskit_model::Datasheet;
 use std::sync::Arc;
 
@@ -65,21 +65,37 @@ impl Linter {
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
     /// finding that says what it is.
     pub fn lint(&self, sheet: &Datasheet, kind: FileKind, file_name: Option<&str>) -> Vec<Finding> {
-        let context = Context::new(sheet, kind, file_name).with_profiles(&self.profiles);
+        self.lint_context(&Context::new(sheet, kind, file_name).with_profiles(&self.profiles))
+    }
+
+    /// The same for a file whose neighbours are known, so that checks across files run too.
+    pub fn lint_among(
+        &self,
+        sheet: &Datasheet,
+        kind: FileKind,
+        file_name: Option<&str>,
+        neighbours: &dyn Neighbours,
+    ) -> Vec<Finding> {
+        let mut context = Context::new(sheet, kind, file_name).with_profiles(&self.profiles);
+        context.neighbours = Some(neighbours);
+        self.lint_context(&context)
+    }
+
+    fn lint_context(&self, context: &Context<'_>) -> Vec<Finding> {
         let mut report = Report::new(&NOT_CANOPEN);
-        if not_canopen::is_foreign(&context) {
+        if not_canopen::is_foreign(context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {
-                not_canopen::check(&context, &mut report);
+                not_canopen::check(context, &mut report);
             }
         } else {
-            walk(&context, &self.checks(kind), &mut report);
+            walk(context, &self.checks(context.kind), &mut report);
         }
         let mut findings = report.into_findings();
         for label in findings.iter_mut().flat_map(|finding| &mut finding.labels) {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);
         }
-        suppression::apply(&context, &self.rules, &mut findings);
+        suppression::apply(context, &self.rules, &mut findings);
         self.rules.apply_severities(&mut findings);
         findings.sort_by(|a, b| {
             (a.span().start, a.rule.code, a.span().end).cmp(&(b.span().start, b.rule.code, b.span().end))

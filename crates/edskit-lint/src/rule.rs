@@ -127,6 +127,8 @@ pub type FileKinds = &'static [FileKind];
 
 /// Files that describe a device.
 pub const DEVICE_FILES: FileKinds = &[FileKind::Eds, FileKind::Dcf];
+/// Files that list the nodes of networks.
+pub const NODE_LISTS: FileKinds = &[FileKind::Cpj];
 /// Every file.
 pub const ALL_FILES: FileKinds = &[FileKind::Eds, FileKind::Dcf, FileKind::Cpj];
 

@@ -2,6 +2,7 @@
 
 mod baseline;
 mod concise;
+mod folder;
 mod github;
 pub(crate) mod human;
 pub(crate) mod json;
@@ -21,6 +22,7 @@ use crate::{Exit, Streams};
 use baseline::{Baseline, Fingerprint};
 use edskit_lint::{Applicability, FileKind, Finding, Linter, Profile, RuleSet, UnknownRule};
 use edskit_model::{Datasheet, Document};
+use folder::Folder;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
 use report::{FileReport, Fixes, Outcome, Report};
@@ -183,7 +185,6 @@ fn lint_file(
             return FileReport { name, kind, outcome: Outcome::Unreadable(reason) };
         }
     };
-    let own_name = name.rsplit('/').next();
     let sheet = Datasheet::new(Document::from_vec(bytes));
     let (sheet, mut findings, fixes) = if arguments.fix || arguments.diff {
         match fix_file(job, &name, sheet, kind, arguments) {
@@ -194,8 +195,8 @@ fn lint_file(
             }
         }
     } else {
-        let findings = job.linter.lint(&sheet, kind, own_name);
-        (sheet, findings, Fixes::default())
+        let found = findings(job, &name, &sheet, kind);
+        (sheet, found, Fixes::default())
     };
     findings.iter_mut().for_each(printable::finding);
     let mut fingerprints: Vec<Fingerprint> = if arguments.baseline.is_some() {
@@ -217,6 +218,15 @@ fn lint_file(
     FileReport { name, kind, outcome: Outcome::Linted { findings, excerpts, fingerprints, known, fixes } }
 }
 
+/// What the rules find in a file; checks across files see the files beside it.
+fn findings(job: &Job, name: &str, sheet: &Datasheet, kind: FileKind) -> Vec<Finding> {
+    let own_name = name.rsplit('/').next();
+    match &job.input {
+        Input::File(path) => job.linter.lint_among(sheet, kind, own_name, &Folder::of(path)),
+        Input::Stdin(_) => job.linter.lint(sheet, kind, own_name),
+    }
+}
+
 /// Fixes a file, in place or only as a difference, and gives what is left.
 fn fix_file(
     job: &Job,
@@ -227,7 +237,7 @@ fn fix_file(
 ) -> io::Result<(Datasheet, Vec<Finding>, Fixes)> {
     let least = if arguments.unsafe_fixes { Applicability::Unsafe } else { Applicability::Safe };
     let before = sheet.clone();
-    let fixed = edskit_lint::fix(&job.linter, sheet, kind, name.rsplit('/').next(), least);
+    let fixed = edskit_lint::fix_with(sheet, least, |sheet| findings(job, name, sheet, kind));
     let mut fixes = Fixes { applied: fixed.applied, diff: String::new() };
     if fixed.applied == 0 {
         return Ok((fixed.sheet, fixed.findings, fixes));

@@ -8,7 +8,7 @@ use edskit_types::AccessType;
 /// The further sub-objects for which the same is prescribed, and which are wrong in the same way as this variable;
 /// `None` where it is itself one of those that an earlier sub-object is reported for.
 pub(super) fn further<'a>(
-    context: &Context<'a>,
+    context: &'a Context<'_>,
     variable: &Variable<'a>,
     prescribed: Prescribed<'a>,
     is_wrong_too: impl Fn(SubObject<'a>) -> bool,

@@ -75,7 +75,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     }
     let directions = [(PdoDirection::Receive, "RPDO"), (PdoDirection::Transmit, "TPDO")];
     let mut waiting = directions.into_iter().flat_map(|(direction, noun)| {
-        let pdos = context.sheet.pdos(direction).filter_map(move |pdo| {
+        context.sheet.pdos(direction).filter_map(move |pdo| {
             let communication = pdo.communication?;
             let is_valid =
                 Effective::of(communication, 1)?.cob_id_at(node_ids(context).next()?).map(CobId::is_valid)?;
@@ -83,8 +83,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
             let transmission_type = TransmissionType(value.constant()?);
             let is_waiting = is_valid && transmission_type.is_synchronous(direction);
             is_waiting.then(|| (value, format!("{noun}{}", pdo.number), transmission_type))
-        });
-        pdos
+        })
     });
     let Some((value, name, transmission_type)) = waiting.next() else { return };
     let others = match waiting.count() {
