@@ -18,9 +18,10 @@ use Libraries::{Any, Only};
 const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-types", &[], Only(&[])),
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
-    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde"])),
-    ("edskit", &["edskit-types", "edskit-model", "edskit-lint"], Any),
-    ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit"], Any),
+    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde", "toml"])),
+    ("edskit-devices", &["edskit-types"], Only(&[])),
+    ("edskit", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices"], Any),
+    ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices", "edskit"], Any),
     ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),
     ("xtask", &[], Any),
 ];
@@ -110,16 +111,22 @@ fn libraries_open_no_file_print_nothing_and_know_no_clock() {
 }
 
 #[test]
-fn types_need_neither_std_nor_other_crates() {
+fn crates_for_devices_need_neither_std_nor_an_allocator_nor_other_crates() {
     let metadata = metadata();
-    let packages = metadata.workspace_packages();
-    let types =
-        packages.iter().find(|package| package.name == "edskit-types").expect("edskit-types is there");
-    assert!(types.dependencies.iter().all(|dependency| dependency.kind == DependencyKind::Development));
-    for (path, text) in sources(&source_folder(types)) {
-        let is_root = path.ends_with("src/lib.rs");
-        assert!(!is_root || text.contains("#![no_std]\n"), "{} lacks #![no_std]", path.display());
-        assert!(!text.contains("extern crate alloc"), "{}: no allocation", path.display());
+    for name in ["edskit-types", "edskit-devices"] {
+        let packages = metadata.workspace_packages();
+        let package = packages.iter().find(|package| package.name == name).expect("the crate is there");
+        let is_foreign = |dependency: &&Dependency| !is_of_workspace(dependency);
+        let foreign = package.dependencies.iter().filter(is_foreign);
+        assert!(
+            foreign.into_iter().all(|dependency| dependency.kind == DependencyKind::Development),
+            "{name}"
+        );
+        for (path, text) in sources(&source_folder(package)) {
+            let is_root = path.ends_with("src/lib.rs");
+            assert!(!is_root || text.contains("#![no_std]\n"), "{} lacks #![no_std]", path.display());
+            assert!(!text.contains("extern crate alloc"), "{}: no allocation", path.display());
+        }
     }
 }
 
@@ -155,7 +162,7 @@ fn libraries(metadata: &Metadata) -> Vec<&Package> {
         ALLOWED.iter().any(|(name, _, libraries)| package.name == *name && matches!(libraries, Only(_)))
     };
     let libraries: Vec<&Package> = metadata.workspace_packages().into_iter().filter(is_library).collect();
-    assert_eq!(libraries.len(), 3);
+    assert_eq!(libraries.len(), 4);
     libraries
 }
 

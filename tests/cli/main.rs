@@ -2,9 +2,13 @@
 
 mod bad_input;
 mod explain;
+mod fix;
 mod fmt;
 mod help;
 mod lint;
+mod neighbours;
+mod profiles;
+mod settings;
 mod show;
 
 use edskit::{Exit, Streams};

@@ -2,7 +2,10 @@
 
 use crate::listing::Listing;
 use crate::odd_lines::{self, OddLine};
-use crate::{FileKind, Finding, Label, Rule};
+use crate::pdos::{self, DescribedPdo};
+use crate::profile::{Applied, Prescribed, Prescription, Profile};
+use crate::rules::cob_id::JudgedCobId;
+use crate::{FileKind, Finding, Label, Neighbours, Rule};
 use core::cell::OnceCell;
 use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
@@ -15,16 +18,40 @@ pub struct Context<'a> {
     pub kind: FileKind,
     /// The file's own name without folders, where it has one.
     pub file_name: Option<&'a str>,
+    /// The files beside it, where the caller knows them.
+    pub neighbours: Option<&'a dyn Neighbours>,
+    /// The profiles that the device follows.
+    pub(crate) profiles: Applied<'a>,
     /// The lists of objects, once a rule has asked for them.
     listing: OnceCell<Listing>,
     /// The odd lines, once a rule has asked for them.
     odd_lines: OnceCell<Vec<OddLine>>,
+    /// The PDOs, once a rule has asked for them.
+    pdos: OnceCell<Vec<DescribedPdo<'a>>>,
+    /// The COB-IDs, once a rule has asked for them.
+    cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
 }
 
 impl<'a> Context<'a> {
-    /// A file to be linted.
+    /// A file to be linted, held to the profiles of CiA.
     pub fn new(sheet: &'a Datasheet, kind: FileKind, file_name: Option<&'a str>) -> Self {
-        Self { sheet, kind, file_name, listing: OnceCell::new(), odd_lines: OnceCell::new() }
+        Self {
+            sheet,
+            kind,
+            file_name,
+            neighbours: None,
+            profiles: Applied::new(sheet),
+            listing: OnceCell::new(),
+            odd_lines: OnceCell::new(),
+            pdos: OnceCell::new(),
+            cob_ids: OnceCell::new(),
+        }
+    }
+
+    /// The same, held to these profiles too.
+    pub fn with_profiles(mut self, profiles: &'a [Profile]) -> Self {
+        self.profiles.add(self.sheet, profiles);
+        self
     }
 
     /// The lists of objects, read once for all rules.
@@ -40,6 +67,16 @@ impl<'a> Context<'a> {
     /// The entries on those lines.
     pub(crate) fn odd_entries(&self) -> impl Iterator<Item = Entry<'a>> {
         self.odd_lines().iter().filter_map(|line| line.entry(self.sheet))
+    }
+
+    /// The described PDOs, read once for all rules.
+    pub(crate) fn pdos(&self) -> &[DescribedPdo<'a>] {
+        self.pdos.get_or_init(|| pdos::read(self.sheet))
+    }
+
+    /// The COB-IDs of messages besides SYNC and the default SDO channel, judged once for all rules.
+    pub(crate) fn cob_ids(&self) -> &[JudgedCobId<'a>] {
+        self.cob_ids.get_or_init(|| JudgedCobId::all(self))
     }
 
     /// The text.
@@ -97,10 +134,17 @@ pub struct Variable<'a> {
     pub low_limit: Option<Field<'a, Value<'a>>>,
     /// The upper limit, read by the data type.
     pub high_limit: Option<Field<'a, Value<'a>>>,
+    /// What profiles prescribe for the object; nothing for most.
+    pub(crate) prescriptions: &'a [Prescription<'a>],
 }
 
 impl<'a> Variable<'a> {
-    pub(crate) fn new(index: Index, sub_index: Option<SubIndex>, description: Description<'a>) -> Self {
+    pub(crate) fn new(
+        index: Index,
+        sub_index: Option<SubIndex>,
+        description: Description<'a>,
+        prescriptions: &'a [Prescription<'a>],
+    ) -> Self {
         // One walk over the entries instead of a search for each key: this runs for every section of every file.
         let [mut object_type, mut data_type, mut access_type] = [None; 3];
         let [mut pdo_mapping, mut srdo_mapping, mut obj_flags] = [None; 3];
@@ -146,7 +190,20 @@ impl<'a> Variable<'a> {
             parameter_value: value(parameter_value),
             low_limit: value(low_limit),
             high_limit: value(high_limit),
+            prescriptions,
         }
+    }
+
+    /// What profiles prescribe for the variable.
+    #[inline]
+    pub(crate) fn prescribed(&self) -> impl Iterator<Item = Prescribed<'a>> {
+        self.prescriptions.iter().filter_map(|prescription| prescription.of(self))
+    }
+
+    /// Whether the section describes equal sub-objects by CompactSubObj.
+    pub(crate) fn is_compact(&self) -> bool {
+        self.sub_index.is_none()
+            && self.description.compact_sub_obj().and_then(Field::known).is_some_and(|count| count > 0)
     }
 
     /// Whether it holds a value of its own: a sub-object, a VAR, a DOMAIN, a DEFTYPE. Not an ARRAY or RECORD.

@@ -7,26 +7,37 @@
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
 mod context;
+mod described;
 mod edits;
+mod evaluate;
 mod finding;
+mod fixer;
 mod inline_comment;
 mod linter;
 mod listing;
 mod missing;
+mod neighbours;
 mod odd_lines;
+mod pdos;
+mod profile;
 mod rule;
 mod rule_set;
 pub mod rules;
 mod similar;
+mod suppression;
 #[cfg(test)]
 mod testing;
 mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
+pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
+pub use neighbours::Neighbours;
+pub use profile::{Profile, ProfileError};
 pub use rule::{
-    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck,
+    ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck, NODE_LISTS,
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};
+pub use similar::nearest;

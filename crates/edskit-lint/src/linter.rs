@@ -3,8 +3,10 @@
 use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
-use crate::{Check, FileKind, Finding, RuleSet};
+use crate::suppression;
+use crate::{Check, FileKind, Finding, Neighbours, Profile, RuleSet};
 use edskit_model::Datasheet;
+use std::sync::Arc;
 
 /// Runs a set of rules over files.
 ///
@@ -18,6 +20,7 @@ use edskit_model::Datasheet;
 /// ```
 pub struct Linter {
     rules: RuleSet,
+    profiles: Arc<[Profile]>,
 }
 
 /// The checks of one run by level, so that the walk makes no decision per rule.
@@ -42,7 +45,13 @@ struct Active<F> {
 impl Linter {
     /// A linter with these rules.
     pub fn new(rules: RuleSet) -> Self {
-        Self { rules }
+        Self { rules, profiles: Arc::default() }
+    }
+
+    /// The same linter, which holds devices to these profiles besides those of CiA.
+    pub fn with_profiles(mut self, profiles: impl Into<Arc<[Profile]>>) -> Self {
+        self.profiles = profiles.into();
+        self
     }
 
     /// The rules.
@@ -56,20 +65,37 @@ impl Linter {
     /// `file_name` is the file's own name without folders. A file that is no CANopen file at all gets the one
     /// finding that says what it is.
     pub fn lint(&self, sheet: &Datasheet, kind: FileKind, file_name: Option<&str>) -> Vec<Finding> {
-        let context = Context::new(sheet, kind, file_name);
+        self.lint_context(&Context::new(sheet, kind, file_name).with_profiles(&self.profiles))
+    }
+
+    /// The same for a file whose neighbours are known, so that checks across files run too.
+    pub fn lint_among(
+        &self,
+        sheet: &Datasheet,
+        kind: FileKind,
+        file_name: Option<&str>,
+        neighbours: &dyn Neighbours,
+    ) -> Vec<Finding> {
+        let mut context = Context::new(sheet, kind, file_name).with_profiles(&self.profiles);
+        context.neighbours = Some(neighbours);
+        self.lint_context(&context)
+    }
+
+    fn lint_context(&self, context: &Context<'_>) -> Vec<Finding> {
         let mut report = Report::new(&NOT_CANOPEN);
-        if not_canopen::is_foreign(&context) {
+        if not_canopen::is_foreign(context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {
-                not_canopen::check(&context, &mut report);
+                not_canopen::check(context, &mut report);
             }
         } else {
-            walk(&context, &self.checks(kind), &mut report);
+            walk(context, &self.checks(context.kind), &mut report);
         }
         let mut findings = report.into_findings();
         for label in findings.iter_mut().flat_map(|finding| &mut finding.labels) {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);
         }
+        suppression::apply(context, &self.rules, &mut findings);
         self.rules.apply_severities(&mut findings);
         findings.sort_by(|a, b| {
             (a.span().start, a.rule.code, a.span().end).cmp(&(b.span().start, b.rule.code, b.span().end))
@@ -126,12 +152,20 @@ fn walk(context: &Context<'_>, checks: &Checks, report: &mut Report) {
         }
     }
     if !checks.variable.is_empty() {
+        let mut prescriptions = Vec::new();
         for object in context.sheet.objects() {
-            let variable = Variable::new(object.index(), None, object.description());
+            context.profiles.find(object.index(), &mut prescriptions);
+            let variable = Variable::new(object.index(), None, object.description(), &prescriptions);
             run!(checks.variable, context, report, &variable);
         }
+        let mut index = None;
         for sub in context.sheet.sub_objects() {
-            let variable = Variable::new(sub.index(), Some(sub.sub_index()), sub.description());
+            if index != Some(sub.index()) {
+                context.profiles.find(sub.index(), &mut prescriptions);
+                index = Some(sub.index());
+            }
+            let variable =
+                Variable::new(sub.index(), Some(sub.sub_index()), sub.description(), &prescriptions);
             run!(checks.variable, context, report, &variable);
         }
     }

@@ -19,12 +19,42 @@ pub enum Group {
     Objects,
     /// VAL: data types and values.
     Values,
+    /// COM: the communication profile of CiA 301.
+    Communication,
+    /// PDO: PDO communication and mapping.
+    Pdo,
+    /// COB: COB-IDs and CAN-IDs.
+    CobId,
+    /// DCF: device configuration files.
+    Configuration,
+    /// MOD: modular devices.
+    Modules,
+    /// CPJ: nodelist.cpj.
+    NodeList,
+    /// PRF: device profiles.
+    Profile,
+    /// STY: style.
+    Style,
 }
 
 impl Group {
     /// Every group, in the order of the catalogue.
-    pub const ALL: [Group; 6] =
-        [Self::Syntax, Self::FileInfo, Self::DeviceInfo, Self::Lists, Self::Objects, Self::Values];
+    pub const ALL: [Group; 14] = [
+        Self::Syntax,
+        Self::FileInfo,
+        Self::DeviceInfo,
+        Self::Lists,
+        Self::Objects,
+        Self::Values,
+        Self::Communication,
+        Self::Pdo,
+        Self::CobId,
+        Self::Configuration,
+        Self::Modules,
+        Self::NodeList,
+        Self::Profile,
+        Self::Style,
+    ];
 
     /// The letters that the codes of the group begin with.
     pub const fn prefix(self) -> &'static str {
@@ -35,6 +65,14 @@ impl Group {
             Self::Lists => "LST",
             Self::Objects => "OBJ",
             Self::Values => "VAL",
+            Self::Communication => "COM",
+            Self::Pdo => "PDO",
+            Self::CobId => "COB",
+            Self::Configuration => "DCF",
+            Self::Modules => "MOD",
+            Self::NodeList => "CPJ",
+            Self::Profile => "PRF",
+            Self::Style => "STY",
         }
     }
 
@@ -47,6 +85,14 @@ impl Group {
             Self::Lists => "Lists of objects",
             Self::Objects => "Objects and their attributes",
             Self::Values => "Data types and values",
+            Self::Communication => "Communication profile",
+            Self::Pdo => "PDO mapping",
+            Self::CobId => "COB-IDs",
+            Self::Configuration => "Device configuration files",
+            Self::Modules => "Modular devices",
+            Self::NodeList => "Node lists",
+            Self::Profile => "Device profiles",
+            Self::Style => "Style",
         }
     }
 }
@@ -81,6 +127,8 @@ pub type FileKinds = &'static [FileKind];
 
 /// Files that describe a device.
 pub const DEVICE_FILES: FileKinds = &[FileKind::Eds, FileKind::Dcf];
+/// Files that list the nodes of networks.
+pub const NODE_LISTS: FileKinds = &[FileKind::Cpj];
 /// Every file.
 pub const ALL_FILES: FileKinds = &[FileKind::Eds, FileKind::Dcf, FileKind::Cpj];
 

@@ -42,6 +42,12 @@ impl RuleSet {
         Self { states: ALL.iter().map(state).collect() }
     }
 
+    /// The same severities with every rule off.
+    pub fn without_any(mut self) -> Self {
+        self.states.iter_mut().for_each(|state| state.enabled = false);
+        self
+    }
+
     /// Switches on what `selector` names.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Which word was meant.
 
 /// The candidate that differs least from `word` (in any case), if it differs little enough to be a slip.
-pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_ascii_lowercase();
     let allowed = (word.len() / 4).clamp(1, 4);
     let distance = |candidate: &str| distance(word.as_bytes(), candidate.to_ascii_lowercase().as_bytes());

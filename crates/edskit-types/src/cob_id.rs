@@ -24,6 +24,9 @@ enum Repr {
 }
 
 impl CanId {
+    /// 000h: network management commands.
+    pub const NMT: CanId = CanId(Repr::Standard(0));
+
     /// An 11-bit identifier, or `None` above 7FFh.
     #[must_use]
     pub const fn standard(id: u16) -> Option<CanId> {

@@ -12,6 +12,7 @@
 //! | rights on an object | [`AccessType`] |
 //! | type of a value | [`DataType`], [`DataTypeKind`] |
 //! | when a PDO is sent or applied | [`TransmissionType`], [`Transmission`], [`PdoDirection`] |
+//! | who uses which identifier, and what is in whose way | [`Claim`], [`Party`], [`conflicts`], [`IdentifierRules`] |
 //! | speed of the bus | [`Bitrate`] |
 //!
 //! # Example
@@ -42,6 +43,7 @@ mod access_type;
 mod bitrate;
 mod cob_id;
 mod data_type;
+mod identifiers;
 mod index;
 mod mapping_entry;
 mod node_id;
@@ -52,6 +54,9 @@ pub use access_type::AccessType;
 pub use bitrate::Bitrate;
 pub use cob_id::{CanId, CobId};
 pub use data_type::{DataType, DataTypeKind};
+pub use identifiers::{
+    Claim, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole, conflicts,
+};
 pub use index::{Index, ObjectArea, SubIndex};
 pub use mapping_entry::MappingEntry;
 pub use node_id::{InvalidNodeId, NodeId};

@@ -24,6 +24,8 @@ pub(crate) enum Command {
     Fmt(FmtArguments),
     /// Show the device that a file describes, one object, or one entry
     Show(ShowArguments),
+    /// Check parameter files of devices
+    Config(ConfigArguments),
     /// Say what rules report, why, and what to write instead
     Explain(ExplainArguments),
     /// Print a completion script for a shell
@@ -46,6 +48,9 @@ pub(crate) struct LintArguments {
     /// Write to this file instead of standard output
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) output: Option<PathBuf>,
+    /// Hold devices to this profile too, besides those of CiA; may be given several times
+    #[arg(long = "profile", value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) profiles: Vec<PathBuf>,
     /// Run only these rules: codes, names or prefixes of codes, or ALL
     #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
     pub(crate) select: Vec<String>,
@@ -58,6 +63,27 @@ pub(crate) struct LintArguments {
     /// Exit with 1 from this severity on
     #[arg(long, value_name = "SEVERITY", value_enum, default_value_t = FailOn::Warning)]
     pub(crate) fail_on: FailOn,
+    /// Apply the safe fixes to the files, and report what is left
+    #[arg(long)]
+    pub(crate) fix: bool,
+    /// With --fix or --diff: apply fixes too that are right only if the intent was guessed right
+    #[arg(long)]
+    pub(crate) unsafe_fixes: bool,
+    /// Change no file; print what --fix would change
+    #[arg(long, conflicts_with = "fix")]
+    pub(crate) diff: bool,
+    /// Use these settings instead of the edskit.toml that is found upwards from each file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) config: Option<PathBuf>,
+    /// Heed no edskit.toml
+    #[arg(long, conflicts_with = "config")]
+    pub(crate) isolated: bool,
+    /// Show only findings that are not in this baseline
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) baseline: Option<PathBuf>,
+    /// Write all findings into the baseline, so that later runs show only new ones
+    #[arg(long, requires = "baseline", conflicts_with_all = ["fix", "diff"])]
+    pub(crate) update_baseline: bool,
     /// Print how often each rule fires instead of the findings
     #[arg(long)]
     pub(crate) statistics: bool,
@@ -118,6 +144,20 @@ pub(crate) enum Color {
     Never,
 }
 
+impl Color {
+    /// Whether to use colour where results go to a terminal or not.
+    pub(crate) fn is_wanted(self, to_terminal: bool) -> bool {
+        match self {
+            Self::Always => true,
+            Self::Never => false,
+            Self::Auto => {
+                let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+                to_terminal && !refused
+            }
+        }
+    }
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct FmtArguments {
     /// Files, or folders that are searched for .eds, .dcf and .cpj files; `-` formats standard input to standard output
@@ -160,6 +200,48 @@ pub(crate) enum ShowFormat {
 pub(crate) struct Place {
     pub(crate) index: u16,
     pub(crate) sub_index: Option<u8>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigArguments {
+    #[command(subcommand)]
+    pub(crate) command: ConfigCommand,
+}
+
+#[derive(Subcommand, Debug)]
+pub(crate) enum ConfigCommand {
+    /// Check a parameter file, and print the PDOs that follow from it
+    ///
+    /// The file is TOML. It names the device (`device = "heinzmann-canopen-gateway"`) and gives the parameters of the
+    /// gateway and of the governor behind it; docs/gateway-parameters.md describes it.
+    Check(ConfigCheckArguments),
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigCheckArguments {
+    /// The file; `-` reads standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// How it is printed
+    #[arg(long, value_enum, default_value_t = ConfigFormat::Human)]
+    pub(crate) format: ConfigFormat,
+    /// Exit with 1 from this severity on
+    #[arg(long, value_name = "SEVERITY", value_enum, default_value_t = FailOn::Warning)]
+    pub(crate) fail_on: FailOn,
+    /// Print findings only: no PDOs, no summary
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    /// When to use colour
+    #[arg(long, value_enum, default_value_t = Color::Auto)]
+    pub(crate) color: Color,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ConfigFormat {
+    /// Source excerpts with labels, then a table of the PDOs
+    Human,
+    /// JSON
+    Json,
 }
 
 #[derive(Args, Debug)]

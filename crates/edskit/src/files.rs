@@ -93,15 +93,17 @@ fn has_known_ending(path: &Path) -> bool {
 
 /// Reads one file or standard input into a datasheet; the error names the file.
 pub(crate) fn read_datasheet(path: &Path, streams: &mut Streams) -> io::Result<Datasheet> {
-    let bytes = if path.as_os_str() == "-" {
+    Ok(Datasheet::new(edskit_model::Document::from_vec(read(path, streams)?)))
+}
+
+/// Reads one file or standard input; the error names the file.
+pub(crate) fn read(path: &Path, streams: &mut Streams) -> io::Result<Vec<u8>> {
+    if path.as_os_str() == "-" {
         let mut bytes = Vec::new();
         streams.stdin.read_to_end(&mut bytes)?;
-        bytes
-    } else {
-        fs::read(path)
-            .map_err(|error| io::Error::new(error.kind(), unreadable(&path.to_string_lossy(), &error)))?
-    };
-    Ok(Datasheet::new(edskit_model::Document::from_vec(bytes)))
+        return Ok(bytes);
+    }
+    fs::read(path).map_err(|error| io::Error::new(error.kind(), unreadable(&path.to_string_lossy(), &error)))
 }
 
 /// Why a file could not be read.

@@ -3,6 +3,8 @@
 //! This is the only crate of the desk half that opens files, knows a terminal and knows JSON.
 
 mod cli;
+mod config;
+mod difference;
 mod explain;
 mod files;
 mod fmt;
@@ -10,6 +12,8 @@ mod generated;
 mod lint;
 mod positions;
 mod printable;
+mod profiles;
+mod settings;
 mod show;
 mod streams;
 
@@ -30,6 +34,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams)
         cli::Command::Lint(arguments) => lint::run(&arguments, streams),
         cli::Command::Fmt(arguments) => fmt::run(&arguments, streams),
         cli::Command::Show(arguments) => show::run(&arguments, streams),
+        cli::Command::Config(arguments) => config::run(&arguments, streams),
         cli::Command::Explain(arguments) => explain::run(&arguments, streams),
         cli::Command::Completions { shell } => generated::completions(shell, streams),
         cli::Command::Man => generated::man(streams),

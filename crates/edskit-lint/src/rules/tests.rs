@@ -1,7 +1,7 @@
 //! What holds for every rule: its metadata, and that its documentation is true.
 
 use super::ALL;
-use crate::testing::{findings_in, lint};
+use crate::testing::{Folder, findings_among, findings_in, lint};
 use crate::{Rule, find};
 use edskit_model::Datasheet;
 use std::collections::HashSet;
@@ -38,11 +38,9 @@ fn the_documentation_has_the_fixed_headings() {
 #[test]
 fn the_bad_example_gives_one_finding_and_the_good_one_none() {
     for rule in ALL.iter() {
-        let (file_name, bad) = example(rule, "Example");
-        let found = findings_in(rule, &file_name, &bad);
+        let found = findings_of_example(rule, "Example");
         assert_eq!(found.len(), 1, "{rule:?}: the example gives {found:?}");
-        let (file_name, good) = example(rule, "Use instead");
-        let found = findings_in(rule, &file_name, &good);
+        let found = findings_of_example(rule, "Use instead");
         assert!(found.is_empty(), "{rule:?}: the good example gives {found:?}");
     }
 }
@@ -72,6 +70,31 @@ fn no_rule_panics_on_the_examples_of_the_others() {
             }
         }
     }
+}
+
+/// What a rule finds in the example under a heading, among the files that the documentation shows with it.
+fn findings_of_example(rule: &'static Rule, heading: &str) -> Vec<String> {
+    let (file_name, text) = example(rule, heading);
+    let folder = neighbours(rule, heading);
+    if folder.is_empty() {
+        return findings_in(rule, &file_name, &text);
+    }
+    let text = String::from_utf8(text).expect("examples with neighbours are UTF-8");
+    findings_among(rule, &file_name, &text, &folder)
+}
+
+/// The fenced files behind the example: their fences say a file name too, as in `dcf drive.dcf`.
+fn neighbours(rule: &Rule, heading: &str) -> Folder {
+    let section = rule.section(heading).unwrap();
+    let fences = section.split("```").skip(3).step_by(2);
+    let mut folder = Folder::default();
+    for fence in fences {
+        let (info, text) = fence.split_once('\n').unwrap();
+        let (_, name) =
+            info.split_once(' ').unwrap_or_else(|| panic!("{rule:?}: a second example has no name"));
+        folder = folder.with(name, text);
+    }
+    folder
 }
 
 /// The fenced example under a heading and a file name for it: the fence says `eds`, `dcf` or `cpj`, and `escaped`

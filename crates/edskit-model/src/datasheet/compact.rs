@@ -25,7 +25,7 @@ enum Origin<'a> {
     /// A section of its own.
     Described(Description<'a>),
     /// Sub-index 00h of an object with CompactSubObj.
-    Count(u8),
+    Count(Object<'a>),
     /// One of the equal sub-objects of an object with CompactSubObj.
     Element(Object<'a>),
 }
@@ -84,7 +84,7 @@ impl<'a> DictionaryEntry<'a> {
     pub fn default_value(self) -> Option<Value<'a>> {
         match self.origin {
             Origin::Described(description) => description.default_value()?.known(),
-            Origin::Count(count) => Some(Value::Integer(Number::decimal(count.into()))),
+            Origin::Count(object) => Some(Value::Integer(Number::decimal(object.compact_count().into()))),
             Origin::Element(object) => object.default_value()?.known(),
         }
     }
@@ -99,6 +99,19 @@ impl<'a> DictionaryEntry<'a> {
                 .and_then(|entry| entry.value(object.standard_type()).known()),
         };
         configured.or_else(|| self.default_value())
+    }
+
+    /// The value that counts, with its place: ParameterValue or the entry of `[xxxxValue]` where there is one, readable
+    /// or not, else DefaultValue; CompactSubObj for sub-index 00h of a compact object.
+    pub fn value_field(self) -> Option<Field<'a, Value<'a>>> {
+        match self.origin {
+            Origin::Described(description) => description.value(),
+            Origin::Count(object) => Some(object.compact_sub_obj()?.entry.value(Some(DataType::Unsigned8))),
+            Origin::Element(object) => {
+                let listed = self.listed(object, SectionKind::CompactValues);
+                listed.map(|entry| entry.value(object.standard_type())).or_else(|| object.default_value())
+            }
+        }
     }
 
     /// The application's name in a DCF: Denotation, or the entry of `[xxxxDenotation]`.
@@ -142,7 +155,7 @@ impl<'a> Object<'a> {
         } else if !has_subs {
             (sub_index.0 == 0).then_some(Origin::Described(self.description()))?
         } else if compact > 0 && sub_index.0 == 0 {
-            Origin::Count(compact)
+            Origin::Count(self)
         } else if sub_index.0 <= compact && sub_index.0 > 0 {
             Origin::Element(self)
         } else {
@@ -245,6 +258,9 @@ mod tests {
         assert!(!entries[0].is_mappable() && entries[1].is_mappable());
         assert_eq!(entries[4].sub_index, SubIndex(0xFF));
         assert!(sheet.dictionary_entry(Index(0x2100), SubIndex(4)).is_none());
+        let places: Vec<_> =
+            entries[..4].iter().map(|entry| entry.value_field().unwrap().entry.line_number() + 1).collect();
+        assert_eq!(places, [8, 6, 6, 14]);
     }
 
     #[test]

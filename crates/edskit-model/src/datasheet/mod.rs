@@ -175,6 +175,13 @@ impl Datasheet {
         self.others.iter().map(|&(_, id)| Section { sheet: self, id })
     }
 
+    /// The section that holds a byte offset.
+    pub fn section_at(&self, offset: u32) -> Option<Section<'_>> {
+        let line = self.document.line_at(offset) as u32;
+        let after = self.sections.partition_point(|section| section.line <= line);
+        (after > 0).then(|| Section { sheet: self, id: after as u32 - 1 })
+    }
+
     /// The described objects in ascending order.
     pub fn objects(&self) -> impl ExactSizeIterator<Item = Object<'_>> + DoubleEndedIterator {
         (0..self.objects.len() as u32).map(|position| Object::new(self, position))

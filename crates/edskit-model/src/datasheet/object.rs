@@ -42,7 +42,7 @@ impl<'a> Object<'a> {
 
     /// The described sub-object at `sub_index`.
     pub fn sub_object(self, sub_index: SubIndex) -> Option<SubObject<'a>> {
-        self.sub_objects().find(|sub| sub.sub_index() == sub_index)
+        self.sheet().sub_object(self.index, sub_index)
     }
 }
 

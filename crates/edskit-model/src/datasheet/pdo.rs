@@ -2,6 +2,7 @@
 
 use super::{Datasheet, DictionaryEntry, Object};
 use crate::value::Value;
+use core::iter;
 use edskit_types::{DataType, Index, MappingEntry, NodeId, PdoDirection, SubIndex, TransmissionType};
 
 /// One described PDO.
@@ -27,11 +28,15 @@ impl Datasheet {
             PdoDirection::Receive => (Index::RPDO_COMMUNICATION, Index::RPDO_MAPPING),
             PdoDirection::Transmit => (Index::TPDO_COMMUNICATION, Index::TPDO_MAPPING),
         };
-        (0..MAXIMUM).filter_map(move |offset| {
-            let communication = self.object(Index(communication.0 + offset));
-            let mapping = self.object(Index(mapping.0 + offset));
-            let described = communication.is_some() || mapping.is_some();
-            described.then_some(Pdo { direction, number: offset + 1, communication, mapping })
+        let block = |first: Index| self.objects_in(first..=Index(first.0 + (MAXIMUM - 1)));
+        let (mut communication, mut mapping) = (block(communication).peekable(), block(mapping).peekable());
+        // Each block begins at a multiple of 512.
+        let offset = |object: &Object<'_>| object.index().0 % MAXIMUM;
+        iter::from_fn(move || {
+            let next = [communication.peek(), mapping.peek()].into_iter().flatten().map(offset).min()?;
+            let communication = communication.next_if(|object| offset(object) == next);
+            let mapping = mapping.next_if(|object| offset(object) == next);
+            Some(Pdo { direction, number: next + 1, communication, mapping })
         })
     }
 }
@@ -86,19 +91,20 @@ fn number<T: TryFrom<i128>>(entry: DictionaryEntry<'_>, node_id: Option<NodeId>)
 mod tests {
     use super::*;
 
-    const TPDO: &str = "[1800]\nObjectType=9\nSubNumber=3\n[1800sub0]\nDataType=5\nDefaultValue=2\n[1800sub1]\nDataType=7\nDefaultValue=$NODEID+0x180\n[1800sub2]\nDataType=5\nDefaultValue=0xFE\n[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=2\n[1A00sub1]\nDataType=7\nDefaultValue=0x60410010\n[1A01]\nObjectType=9\n";
+    const TPDO: &str = "[1800]\nObjectType=9\nSubNumber=3\n[1800sub0]\nDataType=5\nDefaultValue=2\n[1800sub1]\nDataType=7\nDefaultValue=$NODEID+0x180\n[1800sub2]\nDataType=5\nDefaultValue=0xFE\n[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=2\n[1A00sub1]\nDataType=7\nDefaultValue=0x60410010\n[1A01]\nObjectType=9\n[1803]\nObjectType=9\n[1A03]\nObjectType=9\n";
 
     #[test]
     fn parameters_are_brought_together() {
         let sheet = Datasheet::parse(TPDO.as_bytes());
         let pdos: Vec<_> = sheet.pdos(PdoDirection::Transmit).collect();
-        assert_eq!(pdos.iter().map(|pdo| pdo.number).collect::<Vec<_>>(), [1, 2]);
+        assert_eq!(pdos.iter().map(|pdo| pdo.number).collect::<Vec<_>>(), [1, 2, 4]);
         let first = pdos[0];
         assert!(matches!(first.cob_id(), Some(Value::Formula(formula)) if formula.offset() == 0x180));
         assert_eq!(first.transmission_type(), Some(TransmissionType(0xFE)));
         assert_eq!((first.inhibit_time(), first.event_timer()), (None, None));
         let mapped: Vec<_> = first.mapped(None).collect();
         assert_eq!(mapped, [(SubIndex(1), Some(MappingEntry(0x6041_0010))), (SubIndex(2), None)]);
+        assert!(pdos[2].communication.is_some() && pdos[2].mapping.is_some());
         assert!(pdos[1].communication.is_none() && pdos[1].mapped(None).next().is_none());
         assert_eq!(sheet.pdos(PdoDirection::Receive).count(), 0);
     }

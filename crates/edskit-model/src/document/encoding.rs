@@ -39,6 +39,22 @@ impl Encoding {
         }
     }
 
+    /// The bytes that stand for `text`. A character that Windows-1252 does not have becomes `?`.
+    pub fn encode(self, text: &str) -> Vec<u8> {
+        if self != Self::Windows1252 || text.is_ascii() {
+            return text.as_bytes().to_vec();
+        }
+        let mut bytes = Vec::with_capacity(text.len());
+        for character in text.chars() {
+            let mut buffer = [0; 4];
+            match encoding_rs::WINDOWS_1252.encode(character.encode_utf8(&mut buffer)) {
+                (encoded, _, false) => bytes.extend_from_slice(&encoded),
+                (_, _, true) => bytes.push(b'?'),
+            }
+        }
+        bytes
+    }
+
     /// The text that `bytes` stand for.
     pub fn decode(self, bytes: &[u8]) -> Cow<'_, str> {
         match self {

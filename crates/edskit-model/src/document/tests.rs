@@ -97,6 +97,12 @@ fn a_span_can_be_made_to_hold_whole_characters() {
 }
 
 #[test]
+fn text_is_encoded_as_the_file_is() {
+    assert_eq!(Encoding::Windows1252.encode("a€ü→"), b"a\x80\xFC?");
+    assert_eq!(Encoding::Utf8.encode("ü"), "ü".as_bytes());
+}
+
+#[test]
 fn positions_at_the_end_of_the_file_exist() {
     assert_eq!(Document::parse(b"").position(0), Position { line: 1, column: 1 });
     assert_eq!(Document::parse(b"a=1").position(3), Position { line: 1, column: 4 });

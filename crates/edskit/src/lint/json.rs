@@ -53,7 +53,7 @@ struct JsonRelated<'a> {
 
 /// Lines and columns count from 1, columns in characters; offsets count bytes from 0.
 #[derive(Serialize)]
-struct JsonLocation {
+pub(crate) struct JsonLocation {
     line: u32,
     column: u32,
     end_line: u32,
@@ -128,7 +128,7 @@ fn finding(finding: &Located) -> JsonFinding<'_> {
     }
 }
 
-fn location(region: Region) -> JsonLocation {
+pub(crate) fn location(region: Region) -> JsonLocation {
     JsonLocation {
         line: region.start.line,
         column: region.start.column,

@@ -1,5 +1,6 @@
 //! What a run found, ready to be printed.
 
+use super::baseline::Fingerprint;
 use crate::Exit;
 use crate::positions::Located;
 use edskit_lint::{FileKind, Severity};
@@ -27,12 +28,41 @@ pub(crate) enum Outcome {
         findings: Vec<Located>,
         /// The findings as the human format shows them.
         excerpts: String,
+        /// What makes each finding the same in a later run; only where a baseline is in use.
+        fingerprints: Vec<Fingerprint>,
+        /// Findings that the baseline knows, which are not among the others.
+        known: usize,
+        /// What fixes did.
+        fixes: Fixes,
     },
     /// The file could not be read, and why.
     Unreadable(String),
 }
 
+/// What fixes did to a file.
+#[derive(Clone, Default)]
+pub(crate) struct Fixes {
+    /// How many findings were fixed.
+    pub(crate) applied: usize,
+    /// The file as it would be, as a difference; only with `--diff`.
+    pub(crate) diff: String,
+}
+
 impl FileReport {
+    pub(crate) fn fingerprints(&self) -> &[Fingerprint] {
+        match &self.outcome {
+            Outcome::Linted { fingerprints, .. } => fingerprints,
+            Outcome::Unreadable(_) => &[],
+        }
+    }
+
+    pub(crate) fn fixes(&self) -> Option<&Fixes> {
+        match &self.outcome {
+            Outcome::Linted { fixes, .. } => Some(fixes),
+            Outcome::Unreadable(_) => None,
+        }
+    }
+
     pub(crate) fn findings(&self) -> &[Located] {
         match &self.outcome {
             Outcome::Linted { findings, .. } => findings,
@@ -58,6 +88,10 @@ impl Report {
 
     pub(crate) fn summary(&self) -> Summary {
         let count = |severity| self.findings().filter(|(_, finding)| finding.severity == severity).count();
+        let known = |file: &FileReport| match file.outcome {
+            Outcome::Linted { known, .. } => known,
+            Outcome::Unreadable(_) => 0,
+        };
         let linted = |file: &&FileReport| matches!(file.outcome, Outcome::Linted { .. });
         Summary {
             files: self.files.iter().filter(linted).count(),
@@ -65,6 +99,8 @@ impl Report {
             errors: count(Severity::Error),
             warnings: count(Severity::Warning),
             infos: count(Severity::Info),
+            known: self.files.iter().map(known).sum(),
+            fixed: self.files.iter().filter_map(FileReport::fixes).map(|fixes| fixes.applied).sum(),
         }
     }
 
@@ -88,10 +124,27 @@ pub(crate) struct Summary {
     pub(crate) errors: usize,
     pub(crate) warnings: usize,
     pub(crate) infos: usize,
+    /// Findings that the baseline knows.
+    pub(crate) known: usize,
+    /// Findings that were fixed.
+    pub(crate) fixed: usize,
 }
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.found(f)?;
+        if self.fixed > 0 {
+            write!(f, ", {} fixed", self.fixed)?;
+        }
+        if self.known > 0 {
+            write!(f, ", {} known from the baseline", self.known)?;
+        }
+        Ok(())
+    }
+}
+
+impl Summary {
+    fn found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         if self.files_with_findings == 0 {
             return write!(f, "{} file{}, no findings", self.files, plural(self.files));

@@ -1,7 +1,7 @@
 //! A file's text as a terminal can show it, with excerpts found without a walk from its start.
 
 use crate::printable;
-use edskit_model::{Datasheet, Document, Span};
+use edskit_model::{Document, Span};
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 use std::borrow::Cow;
 
@@ -9,7 +9,7 @@ use std::borrow::Cow;
 const LONGEST_LINE: usize = 400;
 
 /// The text of a document for excerpts.
-pub(super) struct Source<'a> {
+pub(crate) struct Source<'a> {
     name: String,
     document: &'a Document,
     text: Cow<'a, str>,
@@ -18,8 +18,7 @@ pub(super) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    pub(super) fn new(name: &str, sheet: &'a Datasheet) -> Self {
-        let document = sheet.document();
+    pub(crate) fn new(name: &str, document: &'a Document) -> Self {
         let bytes = document.to_bytes();
         let is_plain = |byte: &u8| (0x20..0x7F).contains(byte) || matches!(byte, b'\t' | b'\n' | b'\r');
         let lone_cr = document.count_of(edskit_model::LineEnding::Cr) > 0;

@@ -32,6 +32,7 @@ mod space_before_equals;
 mod typed;
 mod unknown_key;
 mod unknown_section;
+pub(crate) mod unused_suppression;
 
 use crate::Rule;
 
@@ -64,4 +65,5 @@ pub(super) const RULES: &[&Rule] = &[
     &unknown_key::UNKNOWN_KEY,
     &control_character::CONTROL_CHARACTER,
     &entry_not_in_column_1::ENTRY_NOT_IN_COLUMN_1,
+    &unused_suppression::UNUSED_SUPPRESSION,
 ];

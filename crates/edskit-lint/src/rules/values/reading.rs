@@ -127,7 +127,7 @@ pub(super) enum Role {
 /// An ARRAY or RECORD that is not compact has no value of its own; whatever its section says is not looked at.
 #[inline]
 pub(super) fn each_value<'a>(
-    context: &Context<'a>,
+    context: &'a Context<'_>,
     variable: &Variable<'a>,
     mut visit: impl FnMut(Role, Field<'a, Value<'a>>),
 ) {

@@ -1,0 +1,66 @@
+//! The Heinzmann CANopen gateway for digital governors: its configuration.
+//!
+//! Source is the manual DG 04 005-d / 07-04; "7.3" and the like are its sections, "GW-CFG-17" and the like the
+//! statements of the project's ledger on it.
+//!
+//! A [`Configuration`] holds the parameters of the gateway and those of the governor that decide on CANopen. Both units
+//! number their parameters by themselves, so that each [`Parameter`] says whose it is ([`Owner`], GW-NOTE-20). From the
+//! configuration follow the PDOs ([`PdoTable`]), and whether the gateway accepts them at its initialisation
+//! ([`PdoTable::claims`] with [`RULES`], 7.3).
+//!
+//! ```
+//! use edskit_devices::gateway::{Configuration, NamedSignals, Parameter, PdoTable, RULES};
+//! use edskit_types::conflicts;
+//!
+//! let mut configuration = Configuration::new();
+//! configuration.set(Parameter::MY_NODE_ID, 2)?;
+//! configuration.set(Parameter::SEND_ERRORS, 1)?;
+//! configuration.set(Parameter::tpdo_assignment(5, 0).unwrap(), 2000)?;
+//! configuration.set(Parameter::tpdo_cycle(5).unwrap(), 100)?;
+//! configuration.set(Parameter::tpdo_identifier(5).unwrap(), 0x282)?;
+//!
+//! let pdos = PdoTable::new(&configuration, &NamedSignals);
+//! let mut claims = pdos.claims();
+//! let conflict = conflicts(claims.as_mut_slice(), &RULES).next().unwrap();
+//! assert_eq!(conflict.to_string(), "TPDO5 and TPDO2 on 282h");
+//! # Ok::<(), edskit_devices::gateway::OutOfRange>(())
+//! ```
+//!
+//! # Choices where the manual is silent
+//!
+//! * Defaults: the manual prints none. The ones here are those of its examples: node-ID 1, 125 kbit/s (GW-GAP-13), node
+//!   numbers 1, 250 kbit/s and 1.0 s on the HEINZMANN bus (GW-CFG-44), and 0 for everything else.
+//! * Which governor parameters exist and are analogue is a matter of the governor. [`Signals`] answers it;
+//!   [`NamedSignals`] knows the seven that the manual names.
+//! * Where the lists of switch functions and sensors end ("from 811 on", "from 900 on"): with their hundreds, at 899 and
+//!   999, and in step with these at 4899 and 4999. The manual names a few members only.
+
+mod amount;
+mod check;
+mod configuration;
+mod input;
+mod measured;
+mod name;
+mod object;
+mod parameter;
+mod pdo;
+mod period;
+mod series;
+mod signal;
+mod table;
+
+pub use amount::{Allowed, Amount};
+pub use check::{CAN_OP_INIT_ERR, Claims, ERR_CAN_OPEN, INITIALISATION_ATTEMPTS, RULES};
+pub use configuration::{Configuration, OutOfRange};
+pub use input::{Input, Target};
+pub use measured::{measured_value, measured_value_by_name};
+pub use name::Name;
+pub use object::ObjectSizes;
+pub use parameter::{Owner, Parameter, Quantity, Values, parameters};
+pub use pdo::{Activity, Pdo, Source, Word};
+pub use period::{MainCycle, Period};
+pub use signal::{NAMED_SIGNALS, NamedSignals, Signal, SignalType, Signals};
+pub use table::PdoTable;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,191 @@
+use super::parameters::{self, Parameter};
+use crate::evaluate::{commissioned, node_ids};
+use crate::rule::rule;
+use crate::{Context, Report, Severity};
+use edskit_types::{CanId, Claim, IdentifierRules, NodeId, Opponent, Party, SdoRole, conflicts};
+use std::collections::HashMap;
+
+rule! {
+    /// Two messages of the device have one CAN-ID
+    ///
+    /// ## What it does
+    /// Compares the CAN-IDs of all messages in use: PDOs, SYNC, TIME, EMCY (its own and those it listens to), SDO
+    /// channels, its heartbeat and those it monitors. Two RPDOs may share one. In an EDS only what collides at every
+    /// node-ID is reported. An RPDO that listens to another message of its own device, and an SDO client of its own
+    /// server, are warnings: such values are there to be changed.
+    ///
+    /// ## Why is this bad
+    /// Whoever receives such a frame cannot tell which of the two it is, and two nodes that send it at once destroy it.
+    ///
+    /// ## Example
+    /// ```eds
+    /// [1800]
+    /// ParameterName=TPDO 1 communication parameter
+    /// ObjectType=0x9
+    ///
+    /// [1800sub1]
+    /// ParameterName=COB-ID
+    /// DataType=0x0007
+    /// DefaultValue=$NODEID+0x180
+    ///
+    /// [1804]
+    /// ParameterName=TPDO 5 communication parameter
+    /// ObjectType=0x9
+    ///
+    /// [1804sub1]
+    /// ParameterName=COB-ID
+    /// DataType=0x0007
+    /// DefaultValue=$NODEID+0x180
+    /// ```
+    ///
+    /// ## Use instead
+    /// ```eds
+    /// [1800]
+    /// ParameterName=TPDO 1 communication parameter
+    /// ObjectType=0x9
+    ///
+    /// [1800sub1]
+    /// ParameterName=COB-ID
+    /// DataType=0x0007
+    /// DefaultValue=$NODEID+0x180
+    ///
+    /// [1804]
+    /// ParameterName=TPDO 5 communication parameter
+    /// ObjectType=0x9
+    ///
+    /// [1804sub1]
+    /// ParameterName=COB-ID
+    /// DataType=0x0007
+    /// DefaultValue=0x80000000
+    /// ```
+    ///
+    /// ## References
+    /// CiA 301 v4.2, 7.3.3.
+    pub(crate) static DUPLICATE_CAN_ID = {
+        code: "COB003",
+        name: "duplicate-can-id",
+        group: CobId,
+        severity: Error,
+        since: "0.1.0",
+        files: DEVICE_FILES,
+        check: File(check),
+    }
+}
+
+fn check(context: &Context<'_>, report: &mut Report) {
+    let mut parameters: Vec<Parameter<'_>> =
+        context.cob_ids().iter().map(|cob_id| cob_id.parameter).collect();
+    parameters.extend(parameters::sync(context.sheet));
+    let mut node_ids = node_ids(context);
+    let Some(first) = node_ids.next() else { return };
+    let mut found = collisions(context, &parameters, first);
+    for other in node_ids {
+        let there = collisions(context, &parameters, other);
+        found.retain(|collision| there.iter().any(|other| other.parties == collision.parties));
+    }
+    let values: HashMap<Party, &Parameter<'_>> =
+        parameters.iter().map(|parameter| (parameter.party, parameter)).collect();
+    for Collision { parties: [party, other], can_id } in found {
+        // Of services without a COB-ID of their own nothing stands in the file.
+        let Some(parameter) = values.get(&party).or_else(|| values.get(&other)) else { continue };
+        let at = match commissioned(context) {
+            None if parameter.value.depends_on_node_id() => format!(" at node-ID {first}"),
+            _ => String::new(),
+        };
+        let finding = report
+            .add(parameter.value.span(), format!("{party} and {other} both have the CAN-ID {can_id}{at}"));
+        if let Some(second) = values.get(&other).filter(|second| second.party != parameter.party) {
+            finding.here(party.to_string()).label(second.value.span(), other.to_string());
+        }
+        let is_client = |party| matches!(party, Party::Sdo { role: SdoRole::Client, .. });
+        if party.is_rpdo() != other.is_rpdo() || is_client(party) || is_client(other) {
+            finding.severity(Severity::Warning);
+        }
+        finding.help("give one of the two another CAN-ID, or set bit 31 of the one that is not in use");
+    }
+}
+
+/// Two messages with one CAN-ID.
+struct Collision {
+    parties: [Party; 2],
+    can_id: CanId,
+}
+
+/// What collides on one node-ID; what is restricted is the matter of COB001.
+fn collisions(context: &Context<'_>, parameters: &[Parameter<'_>], node_id: NodeId) -> Vec<Collision> {
+    let claim = |parameter: &Parameter<'_>| {
+        let cob_id = parameter.used_at(node_id).filter(|cob_id| !cob_id.has_stray_bits())?;
+        let is_restricted = IdentifierRules::CIA_301.restriction(cob_id.can_id()).is_some();
+        let party = parameter.party;
+        // Zeros stand for an SDO channel that nobody has set up.
+        (!(is_restricted && party.is_configurable()) && cob_id.can_id().raw() > 0)
+            .then_some(Claim { can_id: cob_id.can_id(), party })
+    };
+    let mut claims: Vec<Claim> = parameters.iter().filter_map(claim).collect();
+    if claims.is_empty() {
+        return Vec::new();
+    }
+    claims.extend(parameters::fixed_claims(context.sheet, node_id));
+    let rules = IdentifierRules { restricted: &[], ..IdentifierRules::CIA_301 };
+    let collision = |conflict: edskit_types::Conflict| match conflict.with {
+        Opponent::Party(other) => {
+            Some(Collision { parties: [conflict.party, other], can_id: conflict.can_id })
+        }
+        Opponent::Restricted(_) => None,
+    };
+    conflicts(&mut claims, &rules).filter_map(collision).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{findings, findings_in};
+
+    fn pdo(index: &str, value: &str) -> String {
+        format!("[{index}]\nObjectType=9\n[{index}sub1]\nDataType=7\nDefaultValue={value}\n")
+    }
+
+    fn found(text: &str) -> Vec<String> {
+        findings(&DUPLICATE_CAN_ID, text)
+    }
+
+    #[test]
+    fn pdos_and_services() {
+        assert_eq!(
+            found(&(pdo("1800", "$NODEID+0x180") + &pdo("1805", "$NODEID+0x40000180"))),
+            ["10:14 error: TPDO6 and TPDO1 both have the CAN-ID 181h at node-ID 1"]
+        );
+        assert_eq!(
+            found(&(pdo("1800", "$NODEID+0x180") + &pdo("1400", "$NODEID+0x180"))),
+            ["5:14 warning: TPDO1 and RPDO1 both have the CAN-ID 181h at node-ID 1"]
+        );
+        assert_eq!(
+            found(&("[1005]\nDataType=7\nDefaultValue=0x90\n".to_owned() + &pdo("1800", "0x90"))),
+            ["8:14 error: TPDO1 and SYNC both have the CAN-ID 090h"]
+        );
+        assert!(found(&(pdo("1400", "0x205") + &pdo("1401", "0x205"))).is_empty());
+        assert!(found(&(pdo("1800", "0x185") + &pdo("1801", "0x80000185"))).is_empty());
+        assert!(found(&(pdo("1800", "0x180") + &pdo("1801", "0x180"))).is_empty(), "COB001");
+    }
+
+    #[test]
+    fn what_collides_at_one_node_id_only_is_no_defect_of_an_eds() {
+        let text = pdo("1800", "$NODEID+0x180") + &pdo("1400", "0x181");
+        assert!(found(&text).is_empty());
+        let dcf = |node: u8| format!("[DeviceComissioning]\nNodeID={node}\n{text}");
+        let found = |node| findings_in(&DUPLICATE_CAN_ID, "a.dcf", dcf(node).as_bytes());
+        assert!(found(2).is_empty());
+        assert_eq!(found(1), ["7:14 warning: TPDO1 and RPDO1 both have the CAN-ID 181h"]);
+    }
+
+    #[test]
+    fn a_client_of_its_own_server() {
+        let text = "[1280]\nObjectType=9\n[1280sub1]\nDataType=7\nDefaultValue=$NODEID+0x600\n";
+        assert_eq!(
+            found(text),
+            [
+                "5:14 warning: SDO client 1 request and SDO server request both have the CAN-ID 601h at node-ID 1"
+            ]
+        );
+    }
+}

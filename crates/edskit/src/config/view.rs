@@ -1,0 +1,157 @@
+//! The PDOs of a configuration as they are printed.
+
+use super::reading::Reading;
+use edskit_devices::gateway::{Activity, Parameter, Pdo, PdoTable, Period, Source, Word};
+use serde::Serialize;
+
+/// What follows from a configuration.
+#[derive(Serialize)]
+pub(super) struct View {
+    pub(super) node_id: u8,
+    /// In kbit/s; `None` with manual bit timing.
+    pub(super) bit_rate: Option<u16>,
+    pub(super) pdos: Vec<PdoView>,
+    pub(super) heartbeat: HeartbeatView,
+    /// The partner's; `None` where there is no partner.
+    pub(super) partner_heartbeat: Option<HeartbeatView>,
+}
+
+#[derive(Serialize)]
+pub(super) struct PdoView {
+    pub(super) name: String,
+    pub(super) active: bool,
+    /// Why it is active or not.
+    pub(super) why: String,
+    pub(super) can_id: u16,
+    /// 0 if it is inactive.
+    pub(super) bytes: u8,
+    pub(super) time: Option<TimeView>,
+    pub(super) content: Vec<ContentView>,
+}
+
+/// One word.
+#[derive(Serialize)]
+pub(super) struct ContentView {
+    pub(super) text: String,
+    /// Where it is in the object dictionary.
+    pub(super) index: u16,
+    pub(super) sub_index: u8,
+}
+
+#[derive(Serialize)]
+pub(super) struct HeartbeatView {
+    pub(super) node_id: u8,
+    pub(super) can_id: u16,
+    /// `None` if it is not sent, or not monitored.
+    pub(super) time: Option<TimeView>,
+}
+
+/// A time as it is set and as it takes effect.
+#[derive(Serialize, Clone, Copy)]
+pub(super) struct TimeView {
+    pub(super) set_ms: u16,
+    pub(super) effective_ms: f64,
+    pub(super) main_cycles: u16,
+}
+
+impl From<Period> for TimeView {
+    fn from(period: Period) -> Self {
+        Self {
+            set_ms: period.setting_ms,
+            effective_ms: f64::from(period.micros()) / 1000.0,
+            main_cycles: period.cycles,
+        }
+    }
+}
+
+impl View {
+    pub(super) fn new(reading: &Reading, table: &PdoTable) -> Self {
+        let configuration = &reading.configuration;
+        let heartbeat = |node_id: u8, period: Option<Period>| HeartbeatView {
+            node_id,
+            can_id: 0x700 + u16::from(node_id),
+            time: period.map(TimeView::from),
+        };
+        let partner = table.partner_node_id;
+        Self {
+            node_id: table.node_id.get(),
+            bit_rate: configuration.bit_rate().map(|rate| rate.kbit_per_s()),
+            pdos: table.iter().map(|pdo| pdo_view(reading, pdo)).collect(),
+            heartbeat: heartbeat(table.node_id.get(), configuration.heartbeat()),
+            partner_heartbeat: (partner != 0)
+                .then(|| heartbeat(partner, configuration.heartbeat_monitoring())),
+        }
+    }
+}
+
+/// Milliseconds with as many digits as they need.
+pub(super) fn milliseconds(micros: u32) -> String {
+    (f64::from(micros) / 1000.0).to_string()
+}
+
+fn pdo_view(reading: &Reading, pdo: &Pdo) -> PdoView {
+    let content = |word: &Word| ContentView {
+        text: content(reading, word.source),
+        index: word.object.index().0,
+        sub_index: word.object.sub_index().0,
+    };
+    PdoView {
+        name: pdo.party().to_string(),
+        active: pdo.activity.is_active(),
+        why: why(reading, pdo),
+        can_id: pdo.can_id.raw() as u16,
+        bytes: pdo.bytes(),
+        time: pdo.period.map(TimeView::from),
+        content: pdo.words().iter().map(content).collect(),
+    }
+}
+
+fn content(reading: &Reading, source: Source) -> String {
+    match source {
+        Source::Dummy => "-".to_owned(),
+        Source::Errors { first } => format!("errors {first} to {}", first + 15),
+        Source::EngineStatus => "engine status".to_owned(),
+        Source::Signal { number, .. } => reading.signals.title(number),
+        Source::SwitchFunctions => "switch functions".to_owned(),
+        Source::SensorFlags => "error flags of sensors".to_owned(),
+        Source::Sensor { channel } => {
+            let sensors = reading.configuration.sensors();
+            let own = sensors.filter(|input| input.target.channel() == Some(channel));
+            let names: Vec<String> = own.map(|input| input.assignment.to_string()).collect();
+            names.join(" and ")
+        }
+    }
+}
+
+fn why(reading: &Reading, pdo: &Pdo) -> String {
+    let count = |count: usize, what: &str| match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    };
+    let configuration = &reading.configuration;
+    let functions = || configuration.switch_functions().filter(|input| input.target.is_assigned()).count();
+    let sensors = || configuration.sensors().filter(|input| input.target.is_assigned()).count();
+    let selecting = || match pdo.number {
+        3 => Parameter::SEND_STATUS,
+        _ => Parameter::SEND_ERRORS,
+    };
+    match pdo.activity {
+        Activity::Selected => format!("{} is 1", selecting()),
+        Activity::NotSelected => format!("{} is 0", selecting()),
+        Activity::DataAndCycle => "data and a cycle time".to_owned(),
+        Activity::NoCycle => "no cycle time".to_owned(),
+        Activity::NoData => "no data".to_owned(),
+        Activity::NeitherDataNorCycle => "no data, no cycle time".to_owned(),
+        Activity::SwitchFunctions => count(functions(), "switch function"),
+        Activity::SensorFlags => format!("error flags of {}", count(sensors(), "sensor")),
+        Activity::SwitchFunctionsAndSensorFlags => {
+            format!("{}, {}", count(functions(), "switch function"), count(sensors(), "sensor"))
+        }
+        Activity::NoInputs => "no switch function, no sensor".to_owned(),
+        Activity::Sensors => {
+            let words = pdo.words().iter().filter(|word| matches!(word.source, Source::Sensor { .. }));
+            count(words.count(), "sensor")
+        }
+        Activity::NoSensors => "no sensor".to_owned(),
+    }
+}
