@@ -5,15 +5,13 @@ use crate::{root, say};
 use std::fs;
 use std::process::{ExitCode, Stdio};
 
-/// Each document with the command that prints it.
-const DOCUMENTS: &[(&str, &[&str])] = &[(
-    "docs/rules.md",
-    &["run", "--quiet", "--package", "edskit", "--", "explain", "--all", "--format", "markdown"],
-)];
+/// Each document with the format in which `edskit explain --all` prints it.
+const DOCUMENTS: &[(&str, &str)] =
+    &[("docs/rules.md", "markdown"), ("docs/cross-reference.md", "cross-reference")];
 
 pub(crate) fn run() -> ExitCode {
-    for (path, arguments) in DOCUMENTS {
-        if let Err(error) = write(path, arguments) {
+    for (path, format) in DOCUMENTS {
+        if let Err(error) = write(path, format) {
             say(format_args!("{path}: {error}"));
             return ExitCode::FAILURE;
         }
@@ -22,8 +20,9 @@ pub(crate) fn run() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn write(path: &str, arguments: &[&str]) -> Result<(), String> {
-    let printed = cargo(arguments).stderr(Stdio::inherit()).output().map_err(|error| error.to_string())?;
+fn write(path: &str, format: &str) -> Result<(), String> {
+    let explain = ["run", "--quiet", "--package", "edskit", "--", "explain", "--all", "--format", format];
+    let printed = cargo(&explain).stderr(Stdio::inherit()).output().map_err(|error| error.to_string())?;
     if !printed.status.success() {
         return Err(printed.status.to_string());
     }
