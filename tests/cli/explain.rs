@@ -1,6 +1,6 @@
 //! `edskit explain`.
 
-use super::edskit;
+use edskit_tests::edskit;
 
 #[test]
 fn one_rule() {
