@@ -3,6 +3,7 @@
 mod command;
 mod folder;
 pub mod hostile;
+pub mod picture;
 
 pub use command::{Output, edskit, edskit_with_input};
 pub use folder::Folder;

@@ -17,7 +17,21 @@ pub(crate) fn run() -> ExitCode {
         }
         say(format_args!("{path} is written"));
     }
-    ExitCode::SUCCESS
+    let pictures = ["run", "--quiet", "--package", "edskit-tests", "--bin", "pictures"];
+    match cargo(&pictures).status() {
+        Ok(status) if status.success() => {
+            say("docs/pictures is written");
+            ExitCode::SUCCESS
+        }
+        Ok(status) => {
+            say(format_args!("docs/pictures: {status}"));
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            say(format_args!("docs/pictures: {error}"));
+            ExitCode::FAILURE
+        }
+    }
 }
 
 fn write(path: &str, format: &str) -> Result<(), String> {
