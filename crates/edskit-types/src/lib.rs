@@ -14,6 +14,8 @@
 //! | when a PDO is sent or applied | [`TransmissionType`], [`Transmission`], [`PdoDirection`] |
 //! | who uses which identifier, and what is in whose way | [`Claim`], [`Party`], [`conflicts`], [`IdentifierRules`] |
 //! | speed of the bus | [`Bitrate`] |
+//! | state of a device, and what changes it | [`NmtState`], [`NmtCommand`] |
+//! | why an SDO transfer was refused | [`AbortCode`] |
 //!
 //! # Example
 //!
@@ -39,6 +41,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod abort_code;
 mod access_type;
 mod bitrate;
 mod cob_id;
@@ -46,10 +49,12 @@ mod data_type;
 mod identifiers;
 mod index;
 mod mapping_entry;
+mod nmt;
 mod node_id;
 mod object_code;
 mod transmission_type;
 
+pub use abort_code::AbortCode;
 pub use access_type::AccessType;
 pub use bitrate::Bitrate;
 pub use cob_id::{CanId, CobId};
@@ -59,6 +64,7 @@ pub use identifiers::{
 };
 pub use index::{Index, ObjectArea, SubIndex};
 pub use mapping_entry::MappingEntry;
+pub use nmt::{NmtCommand, NmtState};
 pub use node_id::{InvalidNodeId, NodeId};
 pub use object_code::ObjectCode;
 pub use transmission_type::{PdoDirection, Transmission, TransmissionType};

@@ -1,0 +1,30 @@
+//! The object dictionary: what generated code and dictionaries built at run time give the node.
+
+mod entry;
+mod objects;
+mod table;
+mod value;
+
+pub use entry::{Entry, Flags, StorageGroup};
+pub use objects::{Handle, Objects};
+pub use table::{Limits, Position, Table};
+pub use value::Value;
+pub(crate) use value::copy;
+
+#[cfg(test)]
+pub(crate) mod testing {
+    use super::{Entry, Flags};
+    use edskit_types::{DataType, Index, SubIndex};
+
+    /// An entry of which only the place matters.
+    pub(crate) fn entry(index: u16, sub_index: u8) -> Entry {
+        Entry {
+            index: Index(index),
+            sub_index: SubIndex(sub_index),
+            data_type: DataType::Unsigned8,
+            flags: Flags::NONE,
+            offset: 0,
+            size: 1,
+        }
+    }
+}

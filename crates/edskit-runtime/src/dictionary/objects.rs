@@ -1,0 +1,314 @@
+//! Reading and writing values.
+
+use super::entry::{Entry, Flags};
+use super::table::{Position, Table};
+use super::value::{Value, copy, raw};
+use core::marker::PhantomData;
+use edskit_types::{AbortCode, DataType, Index, NodeId, SubIndex};
+
+/// An object dictionary: what is fixed about it, and its values.
+///
+/// Rights are those of SDO clients. The device itself may write everything that can change, by [`Objects::set`] and
+/// [`Objects::store`].
+#[derive(Debug)]
+pub struct Objects<'a> {
+    pub(crate) table: &'a Table<'a>,
+    pub(crate) values: &'a mut [u8],
+}
+
+/// An entry whose type is known when the device is compiled: reading it needs no look-up.
+///
+/// Generated dictionaries have one for each entry with a number.
+#[derive(Debug)]
+pub struct Handle<T> {
+    position: Position,
+    value: PhantomData<fn() -> T>,
+}
+
+impl<T> Handle<T> {
+    /// The entry at this position, whose type must be `T`; generated code calls it.
+    #[must_use]
+    pub const fn new(position: Position) -> Self {
+        Self { position, value: PhantomData }
+    }
+
+    /// Where the entry is.
+    #[must_use]
+    pub const fn position(&self) -> Position {
+        self.position
+    }
+}
+
+impl<T> Clone for Handle<T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Handle<T> {}
+
+impl<'a> Objects<'a> {
+    /// A dictionary over these values, which are as long as the defaults of the table.
+    pub fn new(table: &'a Table<'a>, values: &'a mut [u8]) -> Self {
+        Self { table, values }
+    }
+
+    /// What is fixed about it.
+    #[must_use]
+    pub fn table(&self) -> &'a Table<'a> {
+        self.table
+    }
+
+    /// The value of an entry.
+    #[must_use]
+    pub fn get<T: Value>(&self, handle: Handle<T>) -> T {
+        T::from_bytes(self.bytes(handle.position))
+    }
+
+    /// Gives an entry that can change a value. Limits and rights are not looked at: they bind SDO clients.
+    pub fn set<T: Value>(&mut self, handle: Handle<T>, value: T) {
+        value.to_bytes(self.bytes_mut(handle.position));
+    }
+
+    /// The value at `index` and `sub_index`; `None` where there is no such entry.
+    #[must_use]
+    pub fn value<T: Value>(&self, index: Index, sub_index: u8) -> Option<T> {
+        let position = self.table.find(index, SubIndex(sub_index)).ok()?;
+        Some(T::from_bytes(self.bytes(position)))
+    }
+
+    /// Gives the entry at `index` and `sub_index` a value, where it exists and can change.
+    pub fn set_value<T: Value>(&mut self, index: Index, sub_index: u8, value: T) {
+        if let Ok(position) = self.table.find(index, SubIndex(sub_index)) {
+            value.to_bytes(self.bytes_mut(position));
+        }
+    }
+
+    /// The present bytes of an entry: of a text as many as it has; none for a DOMAIN.
+    #[must_use]
+    pub fn bytes(&self, position: Position) -> &[u8] {
+        let Some(entry) = self.table.entry(position) else { return &[] };
+        let place = self.place(entry);
+        let source = if entry.flags.has(Flags::VARIABLE) { &*self.values } else { self.table.constants };
+        source.get(place).unwrap_or_default()
+    }
+
+    /// The bytes of an entry that can change; none for one that cannot.
+    fn bytes_mut(&mut self, position: Position) -> &mut [u8] {
+        let Some(entry) = self.table.entry(position) else { return &mut [] };
+        if !entry.flags.has(Flags::VARIABLE) {
+            return &mut [];
+        }
+        let place = self.place(entry);
+        self.values.get_mut(place).unwrap_or_default()
+    }
+
+    /// Where the present bytes of an entry lie.
+    fn place(&self, entry: &Entry) -> core::ops::Range<usize> {
+        let offset = usize::from(entry.offset);
+        if !entry.has_length() {
+            return offset..offset + usize::from(entry.size);
+        }
+        let length = self.values.get(offset..offset + 2).map_or(0, u16::from_bytes);
+        let start = offset + 2;
+        start..start + usize::from(length.min(entry.size))
+    }
+
+    /// Whether an SDO client may read the entry.
+    ///
+    /// # Errors
+    /// [`AbortCode::WRITE_ONLY`].
+    pub fn check_read(&self, entry: &Entry) -> Result<(), AbortCode> {
+        if entry.flags.has(Flags::READ) { Ok(()) } else { Err(AbortCode::WRITE_ONLY) }
+    }
+
+    /// Whether an SDO client may write so many bytes; `None` while it has not said how many.
+    ///
+    /// # Errors
+    /// [`AbortCode::READ_ONLY`], [`AbortCode::LENGTH_TOO_HIGH`] and [`AbortCode::LENGTH_TOO_LOW`].
+    pub fn check_write(&self, entry: &Entry, length: Option<usize>) -> Result<(), AbortCode> {
+        if !entry.flags.has(Flags::WRITE) {
+            return Err(AbortCode::READ_ONLY);
+        }
+        let size = usize::from(entry.size);
+        match length {
+            _ if entry.data_type == DataType::Domain => Ok(()),
+            Some(length) if length > size => Err(AbortCode::LENGTH_TOO_HIGH),
+            Some(length) if length < size && !entry.data_type.is_string() => Err(AbortCode::LENGTH_TOO_LOW),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a value of the right length is one that the entry may have.
+    ///
+    /// # Errors
+    /// [`AbortCode::VALUE_TOO_HIGH`] and [`AbortCode::VALUE_TOO_LOW`] by the limits of the EDS, and
+    /// [`AbortCode::INVALID_VALUE`] for a BOOLEAN that is neither 0 nor 1.
+    pub fn check_value(&self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+        if entry.data_type == DataType::Boolean && data.first().is_some_and(|byte| *byte > 1) {
+            return Err(AbortCode::INVALID_VALUE);
+        }
+        if !entry.flags.has(Flags::LIMITED) {
+            return Ok(());
+        }
+        let Some(limits) = self.table.limits(position) else { return Ok(()) };
+        let value = raw(data, entry.data_type.is_signed());
+        let (is_low, is_high) = match entry.data_type {
+            DataType::Real32 => {
+                let real = |bits: u64| f32::from_bits(bits as u32);
+                (real(value) < real(limits.low), real(value) > real(limits.high))
+            }
+            DataType::Real64 => {
+                let real = f64::from_bits;
+                (real(value) < real(limits.low), real(value) > real(limits.high))
+            }
+            data_type if data_type.is_signed() => {
+                ((value as i64) < limits.low as i64, (value as i64) > limits.high as i64)
+            }
+            _ => (value < limits.low, value > limits.high),
+        };
+        match (is_low, is_high) {
+            (true, _) => Err(AbortCode::VALUE_TOO_LOW),
+            (_, true) => Err(AbortCode::VALUE_TOO_HIGH),
+            _ => Ok(()),
+        }
+    }
+
+    /// Gives an entry these bytes, of a text as many as fit. The device itself may do so; SDO clients come by the checks
+    /// first.
+    pub fn store(&mut self, position: Position, data: &[u8]) {
+        let Some(entry) = self.table.entry(position) else { return };
+        if entry.has_length() {
+            let length = data.len().min(usize::from(entry.size)) as u16;
+            let offset = usize::from(entry.offset);
+            if let Some(prefix) = self.values.get_mut(offset..offset + 2) {
+                length.to_bytes(prefix);
+            }
+        }
+        copy(self.bytes_mut(position), data);
+    }
+
+    /// Gives all entries that `is_chosen` their values of power-on, for this node-ID.
+    pub(crate) fn restore(&mut self, node_id: Option<NodeId>, is_chosen: impl Fn(&Entry) -> bool) {
+        for (position, entry) in self.table.all() {
+            if !entry.flags.has(Flags::VARIABLE) || !is_chosen(entry) {
+                continue;
+            }
+            let start = usize::from(entry.offset);
+            let whole = start..start + usize::from(entry.size) + if entry.has_length() { 2 } else { 0 };
+            if let (Some(value), Some(default)) =
+                (self.values.get_mut(whole.clone()), self.table.defaults.get(whole))
+            {
+                copy(value, default);
+            }
+            if entry.flags.has(Flags::NODE_RELATIVE) {
+                let offset = u64::from_bytes(self.bytes(position));
+                let own = node_id.map_or(0, |node_id| u64::from(node_id.get()));
+                offset.wrapping_add(own).to_bytes(self.bytes_mut(position));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dictionary::Limits;
+
+    fn entry(data_type: DataType, flags: Flags, offset: u16, size: u16) -> Entry {
+        Entry { index: Index(0x2000), sub_index: SubIndex(0), data_type, flags, offset, size }
+    }
+
+    const VARIABLE: Flags = Flags::READ.and(Flags::WRITE).and(Flags::VARIABLE);
+
+    #[test]
+    fn a_text_knows_its_length() {
+        let entries = [entry(DataType::VisibleString, VARIABLE, 1, 4)];
+        let defaults = [0xAA, 2, 0, b'o', b'k', 0, 0, 0xBB];
+        let table =
+            Table { entries: &entries, constants: &[], defaults: &defaults, limits: &[], fingerprint: 0 };
+        let mut values = [0; 8];
+        let mut objects = Objects::new(&table, &mut values);
+        objects.restore(None, |_| true);
+        assert_eq!(objects.bytes(Position(0)), b"ok");
+        objects.store(Position(0), b"abcdef");
+        assert_eq!(objects.bytes(Position(0)), b"abcd");
+        objects.store(Position(0), b"");
+        assert_eq!(objects.bytes(Position(0)), b"");
+        assert_eq!((values[0], values[7]), (0, 0), "the neighbours are not touched");
+    }
+
+    #[test]
+    fn constants_cannot_change() {
+        let entries = [entry(DataType::Unsigned16, Flags::READ, 0, 2)];
+        let table =
+            Table { entries: &entries, constants: &[0x34, 0x12], defaults: &[], limits: &[], fingerprint: 0 };
+        let mut objects = Objects::new(&table, &mut []);
+        let handle = Handle::<u16>::new(Position(0));
+        objects.set(handle, 7);
+        assert_eq!(objects.get(handle), 0x1234);
+        assert_eq!(objects.check_write(&entries[0], Some(2)), Err(AbortCode::READ_ONLY));
+    }
+
+    #[test]
+    fn lengths() {
+        let number = entry(DataType::Unsigned32, VARIABLE, 0, 4);
+        let text = entry(DataType::OctetString, VARIABLE, 0, 4);
+        let entries = [number, text];
+        let table = Table { entries: &entries, constants: &[], defaults: &[], limits: &[], fingerprint: 0 };
+        let objects = Objects::new(&table, &mut []);
+        let check = |entry, length| objects.check_write(entry, length);
+        assert_eq!(check(&number, Some(5)), Err(AbortCode::LENGTH_TOO_HIGH));
+        assert_eq!(check(&number, Some(3)), Err(AbortCode::LENGTH_TOO_LOW));
+        assert_eq!([check(&number, Some(4)), check(&number, None), check(&text, Some(0))], [Ok(()); 3]);
+        assert_eq!(check(&text, Some(5)), Err(AbortCode::LENGTH_TOO_HIGH));
+    }
+
+    #[test]
+    fn limits_by_type() {
+        let check = |data_type, low: u64, high: u64, data: &[u8]| {
+            let entries = [entry(data_type, VARIABLE.and(Flags::LIMITED), 0, data.len() as u16)];
+            let limits = [Limits { position: Position(0), low, high }];
+            let table =
+                Table { entries: &entries, constants: &[], defaults: &[], limits: &limits, fingerprint: 0 };
+            Objects::new(&table, &mut []).check_value(Position(0), &entries[0], data)
+        };
+        let minus = |number: i64| number as u64;
+        assert_eq!(check(DataType::Integer8, minus(-5), 5, &[0xFA]), Err(AbortCode::VALUE_TOO_LOW));
+        assert_eq!(check(DataType::Integer8, minus(-5), 5, &[6]), Err(AbortCode::VALUE_TOO_HIGH));
+        assert_eq!(check(DataType::Integer8, minus(-5), 5, &[0xFB]), Ok(()));
+        assert_eq!(check(DataType::Unsigned8, 0, 0xF0, &[0xFA]), Err(AbortCode::VALUE_TOO_HIGH));
+        assert_eq!(
+            check(DataType::Integer24, minus(-1), 1, &[0xFE, 0xFF, 0xFF]),
+            Err(AbortCode::VALUE_TOO_LOW)
+        );
+        let real = |value: f32| u64::from(value.to_bits());
+        assert_eq!(
+            check(DataType::Real32, real(-1.0), real(1.0), &(-2.0_f32).to_le_bytes()),
+            Err(AbortCode::VALUE_TOO_LOW)
+        );
+        assert_eq!(
+            check(DataType::Real64, (-1.0_f64).to_bits(), 1.0_f64.to_bits(), &2.0_f64.to_le_bytes()),
+            Err(AbortCode::VALUE_TOO_HIGH)
+        );
+    }
+
+    #[test]
+    fn defaults_follow_the_node_id() {
+        let entries = [
+            entry(DataType::Unsigned32, VARIABLE.and(Flags::NODE_RELATIVE), 0, 4),
+            entry(DataType::Unsigned16, VARIABLE, 4, 2),
+        ];
+        let defaults = [0x80, 1, 0, 0x40, 0xE8, 3];
+        let table =
+            Table { entries: &entries, constants: &[], defaults: &defaults, limits: &[], fingerprint: 0 };
+        let mut values = [0; 6];
+        let mut objects = Objects::new(&table, &mut values);
+        objects.restore(NodeId::new(5).ok(), |entry| entry.size == 4);
+        let cob_id = Handle::<u32>::new(Position(0));
+        let time = Handle::<u16>::new(Position(1));
+        assert_eq!((objects.get(cob_id), objects.get(time)), (0x4000_0185, 0));
+        objects.restore(NodeId::new(6).ok(), |_| true);
+        assert_eq!((objects.get(cob_id), objects.get(time)), (0x4000_0186, 1000));
+    }
+}

@@ -1,0 +1,124 @@
+//! What is fixed about a dictionary, and finding an entry in it.
+
+use super::entry::{Entry, key};
+use edskit_types::{AbortCode, Index, SubIndex};
+
+/// The fixed part of an object dictionary: on a device in flash.
+#[derive(Clone, Copy, Debug)]
+pub struct Table<'a> {
+    /// Every entry, in ascending order of index and sub-index.
+    pub entries: &'a [Entry],
+    /// The values that cannot change.
+    pub constants: &'a [u8],
+    /// What the values are at power-on, as long as the values.
+    pub defaults: &'a [u8],
+    /// The limits of entries with [`Flags::LIMITED`](crate::Flags::LIMITED), in ascending order of position.
+    pub limits: &'a [Limits],
+    /// A number that differs between dictionaries of different structure: stored values of another one are not loaded.
+    pub fingerprint: u32,
+}
+
+/// The limits of one entry. The bits are those of the value, sign-extended for signed integers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Limits {
+    /// The entry.
+    pub position: Position,
+    /// The lowest value; the lowest of the data type where the EDS names none.
+    pub low: u64,
+    /// The highest value; the highest of the data type where the EDS names none.
+    pub high: u64,
+}
+
+/// The position of an entry in a [`Table`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Position(
+    /// Counted from 0.
+    pub u16,
+);
+
+impl<'a> Table<'a> {
+    /// The position of the entry at `index` and `sub_index`.
+    ///
+    /// # Errors
+    /// [`AbortCode::OBJECT_DOES_NOT_EXIST`] if there is no entry at the index, and
+    /// [`AbortCode::SUB_INDEX_DOES_NOT_EXIST`] if there is none at the sub-index.
+    pub fn find(&self, index: Index, sub_index: SubIndex) -> Result<Position, AbortCode> {
+        let wanted = key(index, sub_index);
+        let place = self.entries.partition_point(|entry| entry.key() < wanted);
+        let next = self.entries.get(place);
+        if next.is_some_and(|entry| entry.key() == wanted) {
+            return Ok(Position(place as u16));
+        }
+        let before = place.checked_sub(1).and_then(|place| self.entries.get(place));
+        let is_there = [next, before].into_iter().flatten().any(|entry| entry.index == index);
+        Err(if is_there { AbortCode::SUB_INDEX_DOES_NOT_EXIST } else { AbortCode::OBJECT_DOES_NOT_EXIST })
+    }
+
+    /// The entry at a position.
+    #[must_use]
+    pub fn entry(&self, position: Position) -> Option<&'a Entry> {
+        self.entries.get(usize::from(position.0))
+    }
+
+    /// The entries of an object with their positions, in ascending order of sub-index.
+    pub fn entries_of(&self, index: Index) -> impl Iterator<Item = (Position, &'a Entry)> + Clone + use<'a> {
+        self.entries_from(index).take_while(move |(_, entry)| entry.index == index)
+    }
+
+    /// The entries from an index on with their positions.
+    pub(crate) fn entries_from(
+        &self,
+        index: Index,
+    ) -> impl Iterator<Item = (Position, &'a Entry)> + Clone + use<'a> {
+        let wanted = key(index, SubIndex(0));
+        let first = self.entries.partition_point(|entry| entry.key() < wanted);
+        let entries = self.entries.get(first..).unwrap_or_default();
+        entries.iter().enumerate().map(move |(offset, entry)| (Position((first + offset) as u16), entry))
+    }
+
+    /// Every entry with its position.
+    pub fn all(&self) -> impl Iterator<Item = (Position, &'a Entry)> + Clone + use<'a> {
+        self.entries.iter().enumerate().map(|(position, entry)| (Position(position as u16), entry))
+    }
+
+    /// The limits of an entry.
+    #[must_use]
+    pub fn limits(&self, position: Position) -> Option<&'a Limits> {
+        let place = self.limits.binary_search_by_key(&position, |limits| limits.position).ok()?;
+        self.limits.get(place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dictionary::{Flags, testing::entry};
+
+    #[test]
+    fn what_is_missing_says_so() {
+        let entries = [entry(0x1000, 0), entry(0x1018, 0), entry(0x1018, 1), entry(0x1018, 4)];
+        let table = Table { entries: &entries, constants: &[], defaults: &[], limits: &[], fingerprint: 0 };
+        let find = |index, sub_index| table.find(Index(index), SubIndex(sub_index));
+        assert_eq!(find(0x1018, 4), Ok(Position(3)));
+        assert_eq!(find(0x1000, 0), Ok(Position(0)));
+        for (index, sub_index) in [(0x1000, 1), (0x1018, 2), (0x1018, 0xFF)] {
+            assert_eq!(find(index, sub_index), Err(AbortCode::SUB_INDEX_DOES_NOT_EXIST));
+        }
+        for index in [0, 0x0FFF, 0x1001, 0xFFFF] {
+            assert_eq!(find(index, 0), Err(AbortCode::OBJECT_DOES_NOT_EXIST));
+        }
+        let of = |index| table.entries_of(Index(index)).count();
+        assert_eq!([of(0x1000), of(0x1018), of(0x1001)], [1, 3, 0]);
+    }
+
+    #[test]
+    fn limits_are_found_by_position() {
+        let entries = [entry(0x1000, 0); 5];
+        let limits = [1, 3].map(|position| Limits { position: Position(position), low: 0, high: 9 });
+        let table =
+            Table { entries: &entries, constants: &[], defaults: &[], limits: &limits, fingerprint: 0 };
+        let found = [0, 1, 2, 3, 4].map(|position| table.limits(Position(position)).is_some());
+        assert_eq!(found, [false, true, false, true, false]);
+        assert!(!Flags::NONE.has(Flags::LIMITED));
+    }
+}

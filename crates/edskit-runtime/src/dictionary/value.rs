@@ -1,0 +1,128 @@
+//! Rust types of values.
+
+/// A type that values of entries can have: `bool`, the integers, `f32` and `f64`.
+///
+/// Integers of 24, 40, 48 and 56 bits are held by the next larger type.
+pub trait Value: Copy + sealed::Sealed {
+    /// The value of bytes in the order of the bus, low byte first. Missing bytes count as 0, or as 1 bits behind a
+    /// negative number.
+    fn from_bytes(bytes: &[u8]) -> Self;
+
+    /// Writes the value into all of `bytes`, low byte first; what does not fit is cut off.
+    fn to_bytes(self, bytes: &mut [u8]);
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+macro_rules! integers {
+    ($($integer:ident $is_signed:literal),*) => {
+        $(
+            impl sealed::Sealed for $integer {}
+
+            impl Value for $integer {
+                fn from_bytes(bytes: &[u8]) -> Self {
+                    raw(bytes, $is_signed) as $integer
+                }
+
+                fn to_bytes(self, bytes: &mut [u8]) {
+                    write_raw(self as u64, bytes);
+                }
+            }
+        )*
+    };
+}
+
+integers!(u8 false, u16 false, u32 false, u64 false, i8 true, i16 true, i32 true, i64 true);
+
+impl sealed::Sealed for bool {}
+
+impl Value for bool {
+    fn from_bytes(bytes: &[u8]) -> Self {
+        bytes.first().is_some_and(|byte| *byte != 0)
+    }
+
+    fn to_bytes(self, bytes: &mut [u8]) {
+        write_raw(self.into(), bytes);
+    }
+}
+
+impl sealed::Sealed for f32 {}
+
+impl Value for f32 {
+    fn from_bytes(bytes: &[u8]) -> Self {
+        Self::from_bits(raw(bytes, false) as u32)
+    }
+
+    fn to_bytes(self, bytes: &mut [u8]) {
+        write_raw(self.to_bits().into(), bytes);
+    }
+}
+
+impl sealed::Sealed for f64 {}
+
+impl Value for f64 {
+    fn from_bytes(bytes: &[u8]) -> Self {
+        Self::from_bits(raw(bytes, false))
+    }
+
+    fn to_bytes(self, bytes: &mut [u8]) {
+        write_raw(self.to_bits(), bytes);
+    }
+}
+
+/// The bits of at most eight bytes, low byte first, sign-extended where asked for.
+pub(crate) fn raw(bytes: &[u8], is_signed: bool) -> u64 {
+    let is_negative = is_signed && bytes.last().is_some_and(|byte| byte & 0x80 != 0);
+    let mut all = [if is_negative { 0xFF } else { 0 }; 8];
+    copy(&mut all, bytes);
+    u64::from_le_bytes(all)
+}
+
+fn write_raw(bits: u64, bytes: &mut [u8]) {
+    copy(bytes, &bits.to_le_bytes());
+}
+
+/// Copies as many bytes as both have. Unlike `copy_from_slice` it cannot panic.
+pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn short_integers_keep_their_sign() {
+        assert_eq!(i32::from_bytes(&[0xFE, 0xFF, 0xFF]), -2);
+        assert_eq!(u32::from_bytes(&[0xFE, 0xFF, 0xFF]), 0x00FF_FFFE);
+        assert_eq!(i64::from_bytes(&[0, 0, 0, 0, 0, 0, 0x80]), -(1 << 55));
+        let mut bytes = [0; 3];
+        (-2_i32).to_bytes(&mut bytes);
+        assert_eq!(bytes, [0xFE, 0xFF, 0xFF]);
+    }
+
+    #[test]
+    fn reals_are_bits() {
+        let mut bytes = [0; 8];
+        1.5_f64.to_bytes(&mut bytes);
+        assert_eq!(f64::from_bytes(&bytes), 1.5);
+        assert_eq!(f32::from_bytes(&[0, 0, 0xC0, 0x3F]), 1.5);
+        assert!(bool::from_bytes(&[2]) && !bool::from_bytes(&[]));
+    }
+
+    proptest! {
+        #[test]
+        fn there_and_back(value: i64, other: u16) {
+            let mut bytes = [0; 8];
+            value.to_bytes(&mut bytes);
+            prop_assert_eq!(i64::from_bytes(&bytes), value);
+            other.to_bytes(&mut bytes[..2]);
+            prop_assert_eq!(u16::from_bytes(&bytes[..2]), other);
+        }
+    }
+}
