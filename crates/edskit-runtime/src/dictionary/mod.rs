@@ -2,14 +2,16 @@
 
 mod entry;
 mod objects;
+mod parts;
 mod table;
 mod value;
 
 pub use entry::{Entry, Flags, StorageGroup};
 pub use objects::{Handle, Objects};
+pub use parts::{Dictionary, Memory, Parts};
 pub use table::{Limits, Position, Table};
 pub use value::Value;
-pub(crate) use value::copy;
+pub(crate) use value::{copy, raw};
 
 #[cfg(test)]
 pub(crate) mod testing {

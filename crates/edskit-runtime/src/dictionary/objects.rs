@@ -178,14 +178,17 @@ impl<'a> Objects<'a> {
     /// first.
     pub fn store(&mut self, position: Position, data: &[u8]) {
         let Some(entry) = self.table.entry(position) else { return };
-        if entry.has_length() {
-            let length = data.len().min(usize::from(entry.size)) as u16;
-            let offset = usize::from(entry.offset);
-            if let Some(prefix) = self.values.get_mut(offset..offset + 2) {
-                length.to_bytes(prefix);
-            }
-        }
+        self.set_length(position, data.len().min(usize::from(entry.size)) as u16);
         copy(self.bytes_mut(position), data);
+    }
+
+    /// Says how many bytes a text has; of other types nothing can be said.
+    pub(crate) fn set_length(&mut self, position: Position, length: u16) {
+        let Some(entry) = self.table.entry(position).filter(|entry| entry.has_length()) else { return };
+        let offset = usize::from(entry.offset);
+        if let Some(prefix) = self.values.get_mut(offset..offset + 2) {
+            length.to_bytes(prefix);
+        }
     }
 
     /// Gives all entries that `is_chosen` their values of power-on, for this node-ID.
@@ -225,8 +228,14 @@ mod tests {
     fn a_text_knows_its_length() {
         let entries = [entry(DataType::VisibleString, VARIABLE, 1, 4)];
         let defaults = [0xAA, 2, 0, b'o', b'k', 0, 0, 0xBB];
-        let table =
-            Table { entries: &entries, constants: &[], defaults: &defaults, limits: &[], fingerprint: 0 };
+        let table = Table {
+            entries: &entries,
+            constants: &[],
+            defaults: &defaults,
+            limits: &[],
+            dummies: 0,
+            fingerprint: 0,
+        };
         let mut values = [0; 8];
         let mut objects = Objects::new(&table, &mut values);
         objects.restore(None, |_| true);
@@ -241,8 +250,14 @@ mod tests {
     #[test]
     fn constants_cannot_change() {
         let entries = [entry(DataType::Unsigned16, Flags::READ, 0, 2)];
-        let table =
-            Table { entries: &entries, constants: &[0x34, 0x12], defaults: &[], limits: &[], fingerprint: 0 };
+        let table = Table {
+            entries: &entries,
+            constants: &[0x34, 0x12],
+            defaults: &[],
+            limits: &[],
+            dummies: 0,
+            fingerprint: 0,
+        };
         let mut objects = Objects::new(&table, &mut []);
         let handle = Handle::<u16>::new(Position(0));
         objects.set(handle, 7);
@@ -255,7 +270,14 @@ mod tests {
         let number = entry(DataType::Unsigned32, VARIABLE, 0, 4);
         let text = entry(DataType::OctetString, VARIABLE, 0, 4);
         let entries = [number, text];
-        let table = Table { entries: &entries, constants: &[], defaults: &[], limits: &[], fingerprint: 0 };
+        let table = Table {
+            entries: &entries,
+            constants: &[],
+            defaults: &[],
+            limits: &[],
+            dummies: 0,
+            fingerprint: 0,
+        };
         let objects = Objects::new(&table, &mut []);
         let check = |entry, length| objects.check_write(entry, length);
         assert_eq!(check(&number, Some(5)), Err(AbortCode::LENGTH_TOO_HIGH));
@@ -269,8 +291,14 @@ mod tests {
         let check = |data_type, low: u64, high: u64, data: &[u8]| {
             let entries = [entry(data_type, VARIABLE.and(Flags::LIMITED), 0, data.len() as u16)];
             let limits = [Limits { position: Position(0), low, high }];
-            let table =
-                Table { entries: &entries, constants: &[], defaults: &[], limits: &limits, fingerprint: 0 };
+            let table = Table {
+                entries: &entries,
+                constants: &[],
+                defaults: &[],
+                limits: &limits,
+                dummies: 0,
+                fingerprint: 0,
+            };
             Objects::new(&table, &mut []).check_value(Position(0), &entries[0], data)
         };
         let minus = |number: i64| number as u64;
@@ -300,8 +328,14 @@ mod tests {
             entry(DataType::Unsigned16, VARIABLE, 4, 2),
         ];
         let defaults = [0x80, 1, 0, 0x40, 0xE8, 3];
-        let table =
-            Table { entries: &entries, constants: &[], defaults: &defaults, limits: &[], fingerprint: 0 };
+        let table = Table {
+            entries: &entries,
+            constants: &[],
+            defaults: &defaults,
+            limits: &[],
+            dummies: 0,
+            fingerprint: 0,
+        };
         let mut values = [0; 6];
         let mut objects = Objects::new(&table, &mut values);
         objects.restore(NodeId::new(5).ok(), |entry| entry.size == 4);

@@ -14,6 +14,8 @@ pub struct Table<'a> {
     pub defaults: &'a [u8],
     /// The limits of entries with [`Flags::LIMITED`](crate::Flags::LIMITED), in ascending order of position.
     pub limits: &'a [Limits],
+    /// Which data types may fill gaps of RPDOs: bit i stands for the type at index i (`[DummyUsage]` of the EDS).
+    pub dummies: u32,
     /// A number that differs between dictionaries of different structure: stored values of another one are not loaded.
     pub fingerprint: u32,
 }
@@ -97,7 +99,14 @@ mod tests {
     #[test]
     fn what_is_missing_says_so() {
         let entries = [entry(0x1000, 0), entry(0x1018, 0), entry(0x1018, 1), entry(0x1018, 4)];
-        let table = Table { entries: &entries, constants: &[], defaults: &[], limits: &[], fingerprint: 0 };
+        let table = Table {
+            entries: &entries,
+            constants: &[],
+            defaults: &[],
+            limits: &[],
+            dummies: 0,
+            fingerprint: 0,
+        };
         let find = |index, sub_index| table.find(Index(index), SubIndex(sub_index));
         assert_eq!(find(0x1018, 4), Ok(Position(3)));
         assert_eq!(find(0x1000, 0), Ok(Position(0)));
@@ -115,8 +124,14 @@ mod tests {
     fn limits_are_found_by_position() {
         let entries = [entry(0x1000, 0); 5];
         let limits = [1, 3].map(|position| Limits { position: Position(position), low: 0, high: 9 });
-        let table =
-            Table { entries: &entries, constants: &[], defaults: &[], limits: &limits, fingerprint: 0 };
+        let table = Table {
+            entries: &entries,
+            constants: &[],
+            defaults: &[],
+            limits: &limits,
+            dummies: 0,
+            fingerprint: 0,
+        };
         let found = [0, 1, 2, 3, 4].map(|position| table.limits(Position(position)).is_some());
         assert_eq!(found, [false, true, false, true, false]);
         assert!(!Flags::NONE.has(Flags::LIMITED));

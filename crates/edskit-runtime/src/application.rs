@@ -1,0 +1,167 @@
+//! What a device adds to CiA 301, and where it differs.
+
+use crate::{Emergency, Entry, Objects};
+use edskit_types::{AbortCode, Bitrate, Index, NmtState, NodeId, SubIndex};
+
+/// The device behind a node. Every method has the behaviour of CiA 301 as its default, so a device implements what it
+/// adds, and what its manual does differently.
+///
+/// The methods are called from within [`Node::receive`](crate::Node::receive) and [`Node::poll`](crate::Node::poll) and
+/// should return soon. They may read and write the dictionary.
+pub trait Application {
+    /// An SDO client or a TPDO is about to read an entry: the place to bring its value up to date.
+    ///
+    /// # Errors
+    /// The abort code that an SDO client gets instead of the value; a TPDO carries the value that is there.
+    fn before_read(&mut self, objects: &mut Objects<'_>, entry: &Entry) -> Result<(), AbortCode> {
+        let _ = (objects, entry);
+        Ok(())
+    }
+
+    /// An SDO client is about to write an entry; rights, length and limits are checked already.
+    ///
+    /// # Errors
+    /// The abort code that the client gets; the value then stays as it is.
+    fn before_write(
+        &mut self,
+        objects: &mut Objects<'_>,
+        entry: &Entry,
+        data: &[u8],
+    ) -> Result<(), AbortCode> {
+        let _ = (objects, entry, data);
+        Ok(())
+    }
+
+    /// An SDO client has written an entry.
+    fn after_write(&mut self, objects: &mut Objects<'_>, entry: &Entry) {
+        let _ = (objects, entry);
+    }
+
+    /// Whether an entry with [`Flags::OPTIONAL`](crate::Flags::OPTIONAL) exists in the present configuration.
+    fn is_present(&mut self, objects: &Objects<'_>, entry: &Entry) -> bool {
+        let _ = (objects, entry);
+        true
+    }
+
+    /// The abort code for a request that is refused with `code`: the place for a manual that prescribes another one.
+    fn abort_code(&mut self, code: AbortCode, index: Index, sub_index: SubIndex) -> AbortCode {
+        let _ = (index, sub_index);
+        code
+    }
+
+    /// How many bytes a DOMAIN has; `None` where that is known only at its end.
+    ///
+    /// # Errors
+    /// The abort code that a client gets who wants to read it; by default [`AbortCode::NO_DATA`].
+    fn domain_length(&mut self, objects: &mut Objects<'_>, entry: &Entry) -> Result<Option<u32>, AbortCode> {
+        let _ = (objects, entry);
+        Err(AbortCode::NO_DATA)
+    }
+
+    /// Puts the bytes of a DOMAIN from `offset` on into `buffer` and says how many; fewer than fit only at its end.
+    ///
+    /// # Errors
+    /// The abort code that ends the transfer.
+    fn read_domain(
+        &mut self,
+        objects: &mut Objects<'_>,
+        entry: &Entry,
+        offset: u32,
+        buffer: &mut [u8],
+    ) -> Result<usize, AbortCode> {
+        let _ = (objects, entry, offset, buffer);
+        Err(AbortCode::NO_DATA)
+    }
+
+    /// Takes the bytes of a DOMAIN from `offset` on. A transfer begins with `offset` 0, which ends any transfer that was
+    /// broken off before; `is_last` says that it is complete and, where the client sent a checksum, right.
+    ///
+    /// # Errors
+    /// The abort code that ends the transfer; by default [`AbortCode::CANNOT_TRANSFER`].
+    fn write_domain(
+        &mut self,
+        objects: &mut Objects<'_>,
+        entry: &Entry,
+        offset: u32,
+        data: &[u8],
+        is_last: bool,
+    ) -> Result<(), AbortCode> {
+        let _ = (objects, entry, offset, data, is_last);
+        Err(AbortCode::CANNOT_TRANSFER)
+    }
+
+    /// The NMT state has changed.
+    fn state_changed(&mut self, objects: &mut Objects<'_>, from: NmtState, to: NmtState) {
+        let _ = (objects, from, to);
+    }
+
+    /// The node is being reset; the values are those of power-on already, for communication resets those of 1000h to
+    /// 1FFFh.
+    fn reset(&mut self, objects: &mut Objects<'_>, reset: Reset) {
+        let _ = (objects, reset);
+    }
+
+    /// A SYNC message has arrived, with its counter where it has one.
+    fn sync_received(&mut self, objects: &mut Objects<'_>, counter: Option<u8>) {
+        let _ = (objects, counter);
+    }
+
+    /// The values of an RPDO, numbered from 1, are in the dictionary.
+    fn rpdo_received(&mut self, objects: &mut Objects<'_>, number: u16) {
+        let _ = (objects, number);
+    }
+
+    /// An RPDO, numbered from 1, has not come within its event time.
+    fn rpdo_timed_out(&mut self, objects: &mut Objects<'_>, number: u16) {
+        let _ = (objects, number);
+    }
+
+    /// A TPDO, numbered from 1, is about to be built from the dictionary.
+    fn tpdo_due(&mut self, objects: &mut Objects<'_>, number: u16) {
+        let _ = (objects, number);
+    }
+
+    /// A TIME message has arrived.
+    fn time_received(&mut self, objects: &mut Objects<'_>, time: TimeOfDay) {
+        let _ = (objects, time);
+    }
+
+    /// Another node has told its state by a heartbeat; `None` once it has not for too long.
+    fn remote_state(&mut self, objects: &mut Objects<'_>, node_id: NodeId, state: Option<NmtState>) {
+        let _ = (objects, node_id, state);
+    }
+
+    /// An error has occurred, or has gone: what the EMCY message says, whether or not it can be sent.
+    fn emergency(&mut self, objects: &mut Objects<'_>, emergency: &Emergency) {
+        let _ = (objects, emergency);
+    }
+
+    /// LSS wants a bit rate to be used: after `delay` milliseconds of silence change it, and be silent as long again.
+    fn activate_bit_rate(&mut self, bit_rate: Bitrate, delay: u16) {
+        let _ = (bit_rate, delay);
+    }
+}
+
+/// A device that adds nothing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct NoApplication;
+
+impl Application for NoApplication {}
+
+/// What is reset.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reset {
+    /// Power-on, or the command reset node: everything.
+    Node,
+    /// The command reset communication: 1000h to 1FFFh and all services.
+    Communication,
+}
+
+/// A time of day, as a TIME message tells it (CiA 301 v4.2, 7.1.6.5).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct TimeOfDay {
+    /// Milliseconds after midnight, in 28 bits.
+    pub milliseconds: u32,
+    /// Days since 1 January 1984.
+    pub days: u16,
+}

@@ -1,0 +1,68 @@
+//! Node guarding and life guarding (CiA 301 v4.2, 7.2.8.3.1).
+
+use crate::context::Context;
+use crate::nmt::error_control;
+use crate::time::Timer;
+use crate::{Error, Frame, Instant, Microseconds};
+use edskit_types::{CanId, Index};
+
+/// What tells this error apart from a missing heartbeat of a node.
+const MASTER: u16 = 0;
+const GUARD_TIME: Index = Index(0x100C);
+const LIFE_TIME_FACTOR: Index = Index(0x100D);
+
+#[derive(Debug)]
+pub(crate) struct Guarding {
+    toggle: bool,
+    /// Runs from the first request on.
+    life: Timer,
+}
+
+impl Guarding {
+    pub(crate) const fn new() -> Self {
+        Self { toggle: false, life: Timer::OFF }
+    }
+
+    pub(crate) fn deadline(&self) -> Instant {
+        self.life.deadline()
+    }
+}
+
+impl Context<'_> {
+    /// A remote frame with the identifier of a heartbeat. Heartbeat has precedence over guarding, and a device without
+    /// 100Ch knows no guarding.
+    pub(crate) fn guarding_request(&mut self, can_id: CanId) {
+        let own = self.core.node_id.map(error_control);
+        let is_guarded = self.objects.value::<u16>(GUARD_TIME, 0).is_some();
+        if own != Some(can_id) || !is_guarded || self.core.producer.is_running() {
+            return;
+        }
+        let toggle = u8::from(self.core.guarding.toggle) << 7;
+        self.core.queue.push(Frame::new(can_id, &[toggle | self.core.state.code()]));
+        self.core.guarding.toggle = !self.core.guarding.toggle;
+        self.core.guarding.life = Timer::after(self.now, self.life_time());
+        self.clear(Error::HEARTBEAT, MASTER);
+    }
+
+    /// The product of 100Ch and 100Dh.
+    fn life_time(&self) -> Microseconds {
+        let guard_time: u16 = self.objects.value(GUARD_TIME, 0).unwrap_or_default();
+        let factor: u8 = self.objects.value(LIFE_TIME_FACTOR, 0).unwrap_or_default();
+        Microseconds::from_milliseconds(u32::from(guard_time) * u32::from(factor))
+    }
+
+    /// 100Ch or 100Dh has been written.
+    pub(crate) fn guarding_written(&mut self) {
+        if self.core.guarding.life.is_running() {
+            self.core.guarding.life = Timer::after(self.now, self.life_time());
+        }
+    }
+
+    pub(crate) fn poll_guarding(&mut self) {
+        if self.core.guarding.life.is_due(self.now) {
+            self.core.guarding.life = Timer::OFF;
+            self.raise(Error::HEARTBEAT, MASTER, [0; 5]);
+            self.react_to_communication_error();
+        }
+    }
+}

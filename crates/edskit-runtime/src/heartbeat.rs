@@ -1,0 +1,145 @@
+//! Heartbeat: producer 1017h and consumer 1016h (CiA 301 v4.2, 7.2.8.3.2).
+
+use crate::context::Context;
+use crate::nmt::error_control;
+use crate::time::Timer;
+use crate::{Error, Frame, Instant, Microseconds};
+use edskit_types::{AbortCode, CanId, Index, NmtState, NodeId, SubIndex};
+
+#[derive(Debug)]
+pub(crate) struct Producer {
+    timer: Timer,
+    period: Microseconds,
+}
+
+impl Producer {
+    pub(crate) const OFF: Self = Self { timer: Timer::OFF, period: Microseconds(0) };
+
+    /// The boot-up message counts as the first heartbeat, so the next one comes after a period.
+    pub(crate) fn started(now: Instant, period: Microseconds) -> Self {
+        Self { timer: Timer::after(now, period), period }
+    }
+
+    pub(crate) fn deadline(&self) -> Instant {
+        self.timer.deadline()
+    }
+
+    pub(crate) fn is_running(&self) -> bool {
+        self.timer.is_running()
+    }
+}
+
+/// What is known of a node whose heartbeat is monitored: an entry of 1016h.
+#[derive(Clone, Copy, Debug)]
+pub struct HeartbeatConsumer {
+    node_id: Option<NodeId>,
+    time: Microseconds,
+    /// Runs from the first heartbeat on.
+    timer: Timer,
+    state: Option<NmtState>,
+}
+
+impl HeartbeatConsumer {
+    /// One that monitors nobody.
+    pub const NEW: Self = Self { node_id: None, time: Microseconds(0), timer: Timer::OFF, state: None };
+
+    pub(crate) fn deadline(&self) -> Instant {
+        self.timer.deadline()
+    }
+
+    /// The consumer that an entry of 1016h describes: the node-ID in bits 16 to 23, milliseconds in bits 0 to 15.
+    fn of(value: u32) -> Self {
+        let milliseconds = value & 0xFFFF;
+        let node_id = NodeId::new((value >> 16) as u8).ok().filter(|_| milliseconds > 0);
+        Self { node_id, time: Microseconds::from_milliseconds(milliseconds), ..Self::NEW }
+    }
+}
+
+impl Context<'_> {
+    pub(crate) fn heartbeat_time(&self) -> Microseconds {
+        let milliseconds: u16 = self.objects.value(Index::PRODUCER_HEARTBEAT, 0).unwrap_or_default();
+        Microseconds::from_milliseconds(milliseconds.into())
+    }
+
+    /// 1017h has been written: the first heartbeat comes at once.
+    pub(crate) fn heartbeat_time_written(&mut self) {
+        let period = self.heartbeat_time();
+        self.core.producer = Producer { timer: Timer::after(self.now, period), period };
+        if period.0 > 0 {
+            self.send_heartbeat();
+        }
+    }
+
+    pub(crate) fn poll_heartbeat(&mut self) {
+        if self.core.producer.timer.is_due(self.now) {
+            self.send_heartbeat();
+            let producer = &mut self.core.producer;
+            producer.timer = producer.timer.again(self.now, producer.period);
+        }
+    }
+
+    fn send_heartbeat(&mut self) {
+        if let Some(node_id) = self.core.node_id {
+            self.core.queue.push(Frame::new(error_control(node_id), &[self.core.state.code()]));
+        }
+    }
+
+    /// Takes the monitored nodes from 1016h.
+    pub(crate) fn configure_consumers(&mut self) {
+        for (place, consumer) in self.consumers.iter_mut().enumerate() {
+            let value = self.objects.value(Index::CONSUMER_HEARTBEAT, (place + 1) as u8);
+            *consumer = HeartbeatConsumer::of(value.unwrap_or_default());
+        }
+    }
+
+    /// 1016h is about to be written: no node may be monitored twice.
+    pub(crate) fn check_consumer(&self, sub_index: SubIndex, value: u32) -> Result<(), AbortCode> {
+        let Some(node_id) = HeartbeatConsumer::of(value).node_id else { return Ok(()) };
+        let others =
+            self.consumers.iter().enumerate().filter(|(place, _)| place + 1 != usize::from(sub_index.0));
+        let is_doubled = others.map(|(_, other)| other.node_id).any(|other| other == Some(node_id));
+        if is_doubled { Err(AbortCode::PARAMETER_INCOMPATIBLE) } else { Ok(()) }
+    }
+
+    /// 1016h has been written: the monitoring of that entry begins anew.
+    pub(crate) fn consumer_written(&mut self, sub_index: SubIndex) {
+        let value = self.objects.value(Index::CONSUMER_HEARTBEAT, sub_index.0).unwrap_or_default();
+        let Some(consumer) =
+            usize::from(sub_index.0).checked_sub(1).and_then(|place| self.consumers.get_mut(place))
+        else {
+            return;
+        };
+        let before = core::mem::replace(consumer, HeartbeatConsumer::of(value));
+        if let Some(node_id) = before.node_id {
+            self.clear(Error::HEARTBEAT, node_id.get().into());
+        }
+    }
+
+    /// A frame with the identifier of a heartbeat.
+    pub(crate) fn heartbeat_received(&mut self, can_id: CanId, frame: &Frame) {
+        let &[code] = frame.data() else { return };
+        let Some(state) = NmtState::from_code(code & 0x7F) else { return };
+        let now = self.now;
+        let is_of = |consumer: &&mut HeartbeatConsumer| consumer.node_id.map(error_control) == Some(can_id);
+        let Some(consumer) = self.consumers.iter_mut().find(is_of) else { return };
+        let Some(node_id) = consumer.node_id else { return };
+        consumer.timer = Timer::after(now, consumer.time);
+        let is_new = consumer.state.replace(state) != Some(state);
+        self.clear(Error::HEARTBEAT, node_id.get().into());
+        if is_new {
+            self.app.remote_state(&mut self.objects, node_id, Some(state));
+        }
+    }
+
+    pub(crate) fn poll_consumers(&mut self) {
+        for place in 0..self.consumers.len() {
+            let Some(consumer) = self.consumers.get_mut(place) else { continue };
+            let (true, Some(node_id)) = (consumer.timer.is_due(self.now), consumer.node_id) else { continue };
+            consumer.timer = Timer::OFF;
+            consumer.state = None;
+            self.raise(Error::HEARTBEAT, node_id.get().into(), [node_id.get(), 0, 0, 0, 0]);
+            self.app.remote_state(&mut self.objects, node_id, None);
+            self.react_to_communication_error();
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! LSS slave: layer setting services (CiA 305 v2.2).
+
+use crate::context::Context;
+use crate::storage::Record;
+use crate::{Frame, MOST_DATA, Reset};
+use edskit_types::{Bitrate, CanId, Index, NodeId};
+
+/// The identifier of answers, 7E4h.
+const RESPONSE: u16 = 0x7E4;
+/// The node-ID that means: none.
+const UNCONFIGURED: u8 = 255;
+/// The standard table of bit rates, by their number (CiA 305, table selector 0); 05h is reserved.
+const BIT_RATES: [Option<Bitrate>; 9] = [
+    Some(Bitrate::Kbit1000),
+    Some(Bitrate::Kbit800),
+    Some(Bitrate::Kbit500),
+    Some(Bitrate::Kbit250),
+    Some(Bitrate::Kbit125),
+    None,
+    Some(Bitrate::Kbit50),
+    Some(Bitrate::Kbit20),
+    Some(Bitrate::Kbit10),
+];
+
+/// Command specifiers.
+mod command {
+    pub(super) const SWITCH_GLOBAL: u8 = 0x04;
+    pub(super) const CONFIGURE_NODE_ID: u8 = 0x11;
+    pub(super) const CONFIGURE_BIT_TIMING: u8 = 0x13;
+    pub(super) const ACTIVATE_BIT_TIMING: u8 = 0x15;
+    pub(super) const STORE: u8 = 0x17;
+    pub(super) const SWITCH_SELECTIVE_FIRST: u8 = 0x40;
+    pub(super) const SWITCH_SELECTIVE_LAST: u8 = 0x43;
+    pub(super) const SWITCH_SELECTIVE_ANSWER: u8 = 0x44;
+    pub(super) const IDENTIFY_FIRST: u8 = 0x46;
+    pub(super) const IDENTIFY_LAST: u8 = 0x4B;
+    pub(super) const IDENTIFY_NON_CONFIGURED: u8 = 0x4C;
+    pub(super) const IDENTIFY_ANSWER: u8 = 0x4F;
+    pub(super) const NON_CONFIGURED_ANSWER: u8 = 0x50;
+    pub(super) const FAST_SCAN: u8 = 0x51;
+    pub(super) const INQUIRE_FIRST: u8 = 0x5A;
+    pub(super) const INQUIRE_LAST: u8 = 0x5D;
+    pub(super) const INQUIRE_NODE_ID: u8 = 0x5E;
+}
+
+#[derive(Debug)]
+pub(crate) struct Lss {
+    is_in_configuration: bool,
+    /// How many numbers of the identity have matched in a row while being selected.
+    selected: u8,
+    /// The same for identification, whose six requests bound revision and serial number.
+    identified: u8,
+    /// Which number of the identity a fast scan looks at.
+    scanned: u8,
+    /// The bit rate that was configured last.
+    bit_rate: Option<Bitrate>,
+}
+
+impl Lss {
+    pub(crate) const fn new() -> Self {
+        Self { is_in_configuration: false, selected: 0, identified: 0, scanned: 0, bit_rate: None }
+    }
+
+    pub(crate) fn is_in_configuration(&self) -> bool {
+        self.is_in_configuration
+    }
+}
+
+impl Context<'_> {
+    /// A frame with the identifier 7E5h.
+    pub(crate) fn lss_request(&mut self, frame: &Frame) {
+        let Some(request) = frame.eight() else { return };
+        let [code, b1, b2, b3, b4, b5, b6, b7] = request;
+        let number = u32::from_le_bytes([b1, b2, b3, b4]);
+        match code {
+            command::SWITCH_GLOBAL => self.switch_global(b1),
+            command::SWITCH_SELECTIVE_FIRST..=command::SWITCH_SELECTIVE_LAST => {
+                self.switch_selective(code - command::SWITCH_SELECTIVE_FIRST, number);
+            }
+            command::IDENTIFY_FIRST..=command::IDENTIFY_LAST => {
+                self.identify(code - command::IDENTIFY_FIRST, number);
+            }
+            command::IDENTIFY_NON_CONFIGURED if self.core.pending_node_id.is_none() => {
+                self.answer([command::NON_CONFIGURED_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
+            }
+            command::FAST_SCAN => self.fast_scan(number, b5, b6, b7),
+            _ if self.core.lss.is_in_configuration => self.configure_by_lss(code, b1, b2),
+            _ => {}
+        }
+    }
+
+    /// The services of the configuration state.
+    fn configure_by_lss(&mut self, code: u8, b1: u8, b2: u8) {
+        match code {
+            command::CONFIGURE_NODE_ID => {
+                let is_right = b1 == UNCONFIGURED || NodeId::new(b1).is_ok();
+                if is_right {
+                    self.core.pending_node_id = NodeId::new(b1).ok();
+                }
+                self.answer([code, u8::from(!is_right), 0, 0, 0, 0, 0, 0]);
+            }
+            command::CONFIGURE_BIT_TIMING => {
+                let bit_rate = BIT_RATES.get(usize::from(b2)).copied().flatten();
+                let supported = bit_rate.filter(|bit_rate| b1 == 0 && self.supports(*bit_rate));
+                if supported.is_some() {
+                    self.core.lss.bit_rate = supported;
+                }
+                self.answer([code, u8::from(supported.is_none()), 0, 0, 0, 0, 0, 0]);
+            }
+            command::ACTIVATE_BIT_TIMING => {
+                if let Some(bit_rate) = self.core.lss.bit_rate {
+                    self.app.activate_bit_rate(bit_rate, u16::from_le_bytes([b1, b2]));
+                }
+            }
+            command::STORE => {
+                let error = if self.store_lss().is_ok() { 0 } else { 2 };
+                self.answer([code, error, 0, 0, 0, 0, 0, 0]);
+            }
+            command::INQUIRE_FIRST..=command::INQUIRE_LAST => {
+                let [a, b, c, d] = self.identity(code - command::INQUIRE_FIRST).to_le_bytes();
+                self.answer([code, a, b, c, d, 0, 0, 0]);
+            }
+            command::INQUIRE_NODE_ID => {
+                let node_id = self.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
+                self.answer([code, node_id, 0, 0, 0, 0, 0, 0]);
+            }
+            _ => {}
+        }
+    }
+
+    fn supports(&self, bit_rate: Bitrate) -> bool {
+        self.core.settings.bit_rates.contains(&bit_rate)
+    }
+
+    fn answer(&mut self, data: [u8; MOST_DATA]) {
+        if let Some(can_id) = CanId::standard(RESPONSE) {
+            self.core.queue.push(Frame::new(can_id, &data));
+        }
+    }
+
+    /// A number of the identity 1018h: 0 the vendor-ID, 1 the product code, 2 the revision number, 3 the serial number.
+    fn identity(&self, number: u8) -> u32 {
+        self.objects.value(Index::IDENTITY, number.saturating_add(1)).unwrap_or_default()
+    }
+
+    fn switch_global(&mut self, mode: u8) {
+        match mode {
+            0 => self.leave_configuration(),
+            1 => self.core.lss.is_in_configuration = true,
+            _ => {}
+        }
+    }
+
+    /// A node without a node-ID that has got one boots up now.
+    fn leave_configuration(&mut self) {
+        self.core.lss.is_in_configuration = false;
+        if self.core.node_id.is_none() && self.core.pending_node_id.is_some() {
+            self.initialise(Reset::Communication);
+        }
+    }
+
+    fn switch_selective(&mut self, place: u8, number: u32) {
+        if self.core.lss.is_in_configuration {
+            return;
+        }
+        if place == 0 {
+            self.core.lss.selected = 0;
+        }
+        if self.core.lss.selected != place || self.identity(place) != number {
+            self.core.lss.selected = 0;
+            return;
+        }
+        self.core.lss.selected += 1;
+        if place == 3 {
+            self.core.lss.selected = 0;
+            self.core.lss.is_in_configuration = true;
+            self.answer([command::SWITCH_SELECTIVE_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
+        }
+    }
+
+    /// Vendor-ID, product code, lowest and highest revision number, lowest and highest serial number.
+    fn identify(&mut self, place: u8, number: u32) {
+        if place == 0 {
+            self.core.lss.identified = 0;
+        }
+        let is_match = match place {
+            0 | 1 => self.identity(place) == number,
+            2 => self.identity(2) >= number,
+            3 => self.identity(2) <= number,
+            4 => self.identity(3) >= number,
+            _ => self.identity(3) <= number,
+        };
+        if self.core.lss.identified != place || !is_match {
+            self.core.lss.identified = 0;
+            return;
+        }
+        self.core.lss.identified += 1;
+        if place == 5 {
+            self.core.lss.identified = 0;
+            self.answer([command::IDENTIFY_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
+        }
+    }
+
+    /// Fast scan: all nodes without node-ID whose number agrees with `number` down to bit `bit` answer; `next` is the
+    /// number to be looked at from then on. Bit 128 begins the scan.
+    fn fast_scan(&mut self, number: u32, bit: u8, place: u8, next: u8) {
+        if self.core.pending_node_id.is_some() || self.core.lss.is_in_configuration {
+            return;
+        }
+        let agrees = match bit {
+            128 => {
+                self.core.lss.scanned = 0;
+                true
+            }
+            0..=31 if place == self.core.lss.scanned && place <= 3 => {
+                (self.identity(place) ^ number) >> bit == 0
+            }
+            _ => false,
+        };
+        if !agrees {
+            return;
+        }
+        if bit == 0 {
+            self.core.lss.scanned = next;
+            if place == 3 && next == 0 {
+                self.core.lss.is_in_configuration = true;
+            }
+        }
+        self.answer([command::IDENTIFY_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
+    }
+
+    fn store_lss(&mut self) -> Result<(), crate::StorageError> {
+        let node_id = self.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
+        let rate = self.core.lss.bit_rate.map_or(0, Bitrate::kbit_per_s).to_le_bytes();
+        let [low, high] = rate;
+        self.storage.begin(Record::Lss)?;
+        // The complement tells a torn record from a right one.
+        self.storage.write(Record::Lss, &[node_id, !node_id, low, high, !low, !high])?;
+        self.storage.commit(Record::Lss)
+    }
+
+    /// The node-ID that LSS has stored: `None` where nothing right is stored, and `Some(None)` for "unconfigured".
+    pub(crate) fn stored_node_id(&mut self) -> Option<Option<NodeId>> {
+        let mut record = [0; 6];
+        let length = self.storage.read(Record::Lss, 0, &mut record).ok()?;
+        let [node_id, not_node_id, low, high, not_low, not_high] = record;
+        let is_right =
+            length == record.len() && node_id == !not_node_id && low == !not_low && high == !not_high;
+        is_right.then(|| NodeId::new(node_id).ok())
+    }
+}

@@ -1,0 +1,109 @@
+//! NMT slave: states, commands, initialisation and boot-up (CiA 301 v4.2, 7.2.8 and 7.3.2).
+
+use crate::context::Context;
+use crate::dictionary::Entry;
+use crate::emcy::Emcy;
+use crate::guarding::Guarding;
+use crate::heartbeat::Producer;
+use crate::{Frame, Reset};
+use edskit_types::{CanId, Index, NmtCommand, NmtState, NodeId};
+
+/// 1F80h bit 2: the device does not go to operational by itself (CiA 302-2).
+const NO_SELF_START: u32 = 1 << 2;
+
+impl Context<'_> {
+    /// The first initialisation.
+    pub(crate) fn power_on(&mut self) {
+        self.core.has_started = true;
+        self.core.pending_node_id = self.stored_node_id().unwrap_or(self.core.settings.node_id);
+        self.initialise(Reset::Node);
+    }
+
+    /// A frame with the identifier 000h.
+    pub(crate) fn nmt_command(&mut self, frame: &Frame) {
+        let (&[code, node_id], Some(own)) = (frame.data(), self.core.node_id) else { return };
+        if node_id != 0 && node_id != own.get() {
+            return;
+        }
+        match NmtCommand::from_code(code) {
+            Some(NmtCommand::Start) => self.enter(NmtState::Operational),
+            Some(NmtCommand::Stop) => self.enter(NmtState::Stopped),
+            Some(NmtCommand::EnterPreOperational) => self.enter(NmtState::PreOperational),
+            Some(NmtCommand::ResetNode) => self.initialise(Reset::Node),
+            Some(NmtCommand::ResetCommunication) => self.initialise(Reset::Communication),
+            None => {}
+        }
+    }
+
+    /// Goes to another state; nothing happens where the node is in it or waits for a node-ID.
+    pub(crate) fn enter(&mut self, to: NmtState) {
+        let from = self.core.state;
+        if from == to || from == NmtState::Initialising {
+            return;
+        }
+        self.core.state = to;
+        if to == NmtState::Stopped {
+            self.stop_transfers();
+        }
+        if from == NmtState::Stopped {
+            self.core.sync.restart(self.now);
+        }
+        if to == NmtState::Operational {
+            self.start_pdos();
+        } else if from == NmtState::Operational {
+            self.stop_pdos();
+        }
+        self.app.state_changed(&mut self.objects, from, to);
+    }
+
+    /// Resets the node or its communication, and boots up with the node-ID that is configured.
+    pub(crate) fn initialise(&mut self, reset: Reset) {
+        let from = self.core.state;
+        self.core.state = NmtState::Initialising;
+        if from != NmtState::Initialising {
+            self.app.state_changed(&mut self.objects, from, NmtState::Initialising);
+        }
+        self.core.queue.clear();
+        self.core.node_id = self.core.pending_node_id;
+        let node_id = self.core.node_id;
+        let is_reset = move |entry: &Entry| reset == Reset::Node || (0x1000..0x2000).contains(&entry.index.0);
+        self.objects.restore(node_id, is_reset);
+        self.core.emcy = Emcy::new();
+        self.load_parameters(is_reset);
+        self.app.reset(&mut self.objects, reset);
+        self.configure();
+        let Some(node_id) = node_id else { return };
+        self.core.queue.push(Frame::new(error_control(node_id), &[NmtState::Initialising.code()]));
+        self.enter_pre_operational();
+        if self.starts_by_itself() {
+            self.enter(NmtState::Operational);
+        }
+    }
+
+    fn enter_pre_operational(&mut self) {
+        self.core.state = NmtState::PreOperational;
+        self.core.producer = Producer::started(self.now, self.heartbeat_time());
+        self.app.state_changed(&mut self.objects, NmtState::Initialising, NmtState::PreOperational);
+    }
+
+    /// Takes the configuration of every service from the dictionary.
+    fn configure(&mut self) {
+        self.core.guarding = Guarding::new();
+        self.core.producer = Producer::OFF;
+        self.configure_sync();
+        self.configure_servers();
+        self.configure_consumers();
+        self.configure_pdos();
+    }
+
+    fn starts_by_itself(&self) -> bool {
+        let startup = self.objects.value::<u32>(Index(0x1F80), 0);
+        startup.map_or(self.core.settings.starts_by_itself, |startup| startup & NO_SELF_START == 0)
+    }
+}
+
+/// The identifier of a node's boot-up, heartbeat and guarding message.
+pub(crate) fn error_control(node_id: NodeId) -> CanId {
+    // 700h and a node-ID always fit into eleven bits.
+    CanId::standard(0x700 + u16::from(node_id.get())).unwrap_or(CanId::NMT)
+}

@@ -1,0 +1,185 @@
+//! Which values a PDO carries.
+
+use super::{MOST_ENTRIES, Place};
+use crate::context::Context;
+use crate::dictionary::{Flags, Position, raw};
+use crate::{Entry, Objects, Value};
+use edskit_types::{AbortCode, DataType, MappingEntry, PdoDirection};
+
+/// The most bits of a PDO.
+pub(super) const MOST_BITS: u8 = 64;
+
+/// One value in a PDO: the entry, found once when the mapping is made, and its bits.
+#[derive(Clone, Copy, Debug)]
+pub struct Mapped {
+    /// `None` for a dummy, which only fills a gap.
+    position: Option<Position>,
+    bits: u8,
+}
+
+impl Mapped {
+    /// A place for a value.
+    pub const NEW: Self = Self { position: None, bits: 0 };
+
+    pub(crate) fn position(self) -> Option<Position> {
+        self.position
+    }
+}
+
+/// Where the mapping of a PDO lies among all mapped values of the node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slots {
+    /// The first place.
+    pub(super) first: u16,
+    /// How many places there are.
+    pub(super) capacity: u8,
+    /// How many are in use.
+    pub(super) count: u8,
+    /// The bits of all of them.
+    pub(super) bits: u8,
+}
+
+impl Slots {
+    pub(super) const NONE: Self = Self { first: 0, capacity: 0, count: 0, bits: 0 };
+
+    /// The values that are mapped.
+    pub(super) fn of(self, mapped: &[Mapped]) -> &[Mapped] {
+        let first = usize::from(self.first);
+        mapped.get(first..first + usize::from(self.count)).unwrap_or_default()
+    }
+
+    /// How many data bytes the PDO has.
+    pub(super) fn bytes(self) -> usize {
+        usize::from(self.bits.div_ceil(8))
+    }
+}
+
+/// The lowest `bits` bits.
+fn mask(bits: u8) -> u64 {
+    1_u64.checked_shl(bits.into()).map_or(u64::MAX, |bit| bit - 1)
+}
+
+/// The data of a PDO: the present values one behind the other, the first one in the lowest bits.
+pub(super) fn gather(objects: &Objects<'_>, mapped: &[Mapped]) -> u64 {
+    let mut data = 0;
+    let mut offset = 0;
+    for value in mapped {
+        let bits = value.position.map_or(0, |position| raw(objects.bytes(position), false));
+        data |= (bits & mask(value.bits)).checked_shl(offset).unwrap_or(0);
+        offset += u32::from(value.bits);
+    }
+    data
+}
+
+/// Puts the data of a PDO into the dictionary. A value outside the limits of its entry is left out.
+pub(super) fn scatter(objects: &mut Objects<'_>, mapped: &[Mapped], mut data: u64) {
+    for value in mapped {
+        let bits = data & mask(value.bits);
+        data = data.checked_shr(value.bits.into()).unwrap_or(0);
+        let Some(position) = value.position else { continue };
+        let Some(entry) = objects.table().entry(position) else { continue };
+        let mut bytes = [0; 8];
+        bits.to_bytes(&mut bytes);
+        let size = usize::from(value.bits.div_ceil(8));
+        let bytes = bytes.get(..size).unwrap_or_default();
+        if objects.check_value(position, entry, bytes).is_ok() {
+            objects.store(position, bytes);
+        }
+    }
+}
+
+impl Context<'_> {
+    /// Whether a mapping entry can be carried in a direction, and what it stands for.
+    pub(super) fn check_entry(
+        &mut self,
+        direction: PdoDirection,
+        mapping: MappingEntry,
+    ) -> Result<Mapped, AbortCode> {
+        let bits = mapping.bits();
+        if mapping.is_dummy() {
+            return self.check_dummy(direction, mapping);
+        }
+        let position = self.objects.table.find(mapping.index(), mapping.sub_index())?;
+        let entry = *self.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
+        if !self.exists(&entry) {
+            return Err(AbortCode::OBJECT_DOES_NOT_EXIST);
+        }
+        let right = match direction {
+            PdoDirection::Receive => Flags::RPDO,
+            PdoDirection::Transmit => Flags::TPDO,
+        };
+        if !entry.flags.has(right) {
+            return Err(AbortCode::NOT_MAPPABLE);
+        }
+        if !may_have(&entry, bits) {
+            return Err(AbortCode::LENGTH_MISMATCH);
+        }
+        Ok(Mapped { position: Some(position), bits })
+    }
+
+    /// A dummy fills a gap of an RPDO with a data type that the device allows for that.
+    fn check_dummy(&self, direction: PdoDirection, mapping: MappingEntry) -> Result<Mapped, AbortCode> {
+        let index = mapping.index();
+        let is_allowed =
+            self.objects.table.dummies.checked_shr(index.0.into()).is_some_and(|bit| bit & 1 == 1);
+        let length = DataType::from_index(index).and_then(DataType::bits);
+        if direction == PdoDirection::Transmit || !is_allowed || mapping.sub_index().0 != 0 {
+            return Err(AbortCode::NOT_MAPPABLE);
+        }
+        if length != Some(mapping.bits().into()) {
+            return Err(AbortCode::LENGTH_MISMATCH);
+        }
+        Ok(Mapped { position: None, bits: mapping.bits() })
+    }
+
+    /// Whether an entry exists in the present configuration.
+    pub(crate) fn exists(&mut self, entry: &Entry) -> bool {
+        !entry.flags.has(Flags::OPTIONAL) || self.app.is_present(&self.objects, entry)
+    }
+
+    /// Takes the first `count` entries of a mapping parameter.
+    ///
+    /// # Errors
+    /// What is wrong with one of them, or [`AbortCode::PDO_LENGTH_EXCEEDED`] where there are more than the PDO has places
+    /// for, or more than 64 bits.
+    pub(super) fn map(&mut self, place: Place, slots: Slots, count: u8) -> Result<Slots, AbortCode> {
+        if count > slots.capacity || count > MOST_ENTRIES {
+            return Err(AbortCode::PDO_LENGTH_EXCEEDED);
+        }
+        let mut bits: u8 = 0;
+        for number in 0..count {
+            let entry = self.objects.value(place.mapping(), number + 1).map(MappingEntry);
+            let entry = entry.ok_or(AbortCode::SUB_INDEX_DOES_NOT_EXIST)?;
+            let mapped = self.check_entry(place.direction, entry)?;
+            bits = bits.saturating_add(mapped.bits);
+            if bits > MOST_BITS {
+                return Err(AbortCode::PDO_LENGTH_EXCEEDED);
+            }
+            if let Some(slot) = self.mapped.get_mut(usize::from(slots.first) + usize::from(number)) {
+                *slot = mapped;
+            }
+        }
+        Ok(Slots { count, bits, ..slots })
+    }
+}
+
+/// Whether an entry can be mapped with so many bits: the length of its type; of a text any number of whole bytes.
+fn may_have(entry: &Entry, bits: u8) -> bool {
+    match entry.data_type {
+        DataType::Boolean => bits == 1 || bits == 8,
+        data_type if data_type.is_string() => {
+            bits > 0 && bits.is_multiple_of(8) && u16::from(bits / 8) <= entry.size && bits <= MOST_BITS
+        }
+        data_type => data_type.bits() == Some(bits.into()) && bits <= MOST_BITS,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn masks() {
+        assert_eq!([mask(0), mask(1), mask(63), mask(64)], [0, 1, u64::MAX >> 1, u64::MAX]);
+    }
+}
