@@ -19,6 +19,8 @@
 //! | what an EDS cannot say | [`SideFile`] |
 //! | what stands against it | [`Problem`] |
 
+mod compile;
+mod generate;
 mod identifier;
 mod layout;
 mod problem;
@@ -26,6 +28,8 @@ mod render;
 mod side_file;
 mod text;
 
+pub use compile::{Config, compile, write_if_changed};
+pub use generate::{Generated, generate, parse};
 pub use identifier::module_name;
 pub use layout::{Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out};
 pub use problem::{InputFile, Problem};

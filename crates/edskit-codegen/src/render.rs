@@ -4,7 +4,6 @@ mod view;
 
 use crate::Layout;
 use askama::Template;
-use core::fmt;
 use view::View;
 
 /// How the generated code is named, and what it names.
@@ -46,10 +45,9 @@ impl Naming {
 /// Names of the EDS stand in comments only, and identifiers are made from their letters and digits.
 #[must_use]
 pub fn render(layout: &Layout, naming: &Naming) -> String {
-    // The view's types print without failing, and writing to a string does not fail.
-    View::new(layout, naming).render().unwrap_or_else(|fmt_error| unreachable_text(&fmt_error))
+    // Neither the view's types nor a string fail to be written.
+    View::new(layout, naming).render().unwrap_or_else(|error| format!("compile_error!({:?});\n", error.to_string()))
 }
 
-fn unreachable_text(error: &dyn fmt::Display) -> String {
-    format!("compile_error!({:?});\n", error.to_string())
-}
+#[cfg(test)]
+mod tests;
