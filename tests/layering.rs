@@ -20,8 +20,26 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
     ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["memchr", "serde", "toml"])),
     ("edskit-devices", &["edskit-types"], Only(&[])),
+    ("edskit-runtime", &["edskit-types"], Only(&["embedded-can"])),
+    (
+        "edskit-codegen",
+        &["edskit-types", "edskit-model", "edskit-lint", "edskit-runtime"],
+        Only(&["askama", "serde", "toml"]),
+    ),
     ("edskit", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices"], Any),
-    ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices", "edskit"], Any),
+    (
+        "edskit-tests",
+        &[
+            "edskit-types",
+            "edskit-model",
+            "edskit-lint",
+            "edskit-devices",
+            "edskit-runtime",
+            "edskit-codegen",
+            "edskit",
+        ],
+        Any,
+    ),
     ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),
     ("xtask", &[], Any),
 ];
@@ -44,6 +62,9 @@ const OUTER_WORDS: &[&str] = &[
     "eprint!",
     "eprintln!",
 ];
+
+/// The one file of a library that may: it is for build scripts, which read and write files and talk to cargo.
+const BUILD_SCRIPT_FILE: &str = "edskit-codegen/src/compile.rs";
 
 /// The one file that may hold unsafe code: its allocator counts, and an allocator is unsafe by its trait.
 const UNSAFE_FILE: &str = "tests/hostile.rs";
@@ -100,6 +121,9 @@ fn every_crate_takes_lints_licence_and_toolchain_from_the_workspace() {
 fn libraries_open_no_file_print_nothing_and_know_no_clock() {
     for package in libraries(&metadata()) {
         for (path, text) in sources(&source_folder(package)) {
+            if path.ends_with(BUILD_SCRIPT_FILE) || path.ends_with("edskit-codegen/src/compile/tests.rs") {
+                continue;
+            }
             for (number, line) in text.lines().enumerate() {
                 let code = line.split("//").next().unwrap_or_default();
                 for word in OUTER_WORDS {
@@ -162,7 +186,7 @@ fn libraries(metadata: &Metadata) -> Vec<&Package> {
         ALLOWED.iter().any(|(name, _, libraries)| package.name == *name && matches!(libraries, Only(_)))
     };
     let libraries: Vec<&Package> = metadata.workspace_packages().into_iter().filter(is_library).collect();
-    assert_eq!(libraries.len(), 4);
+    assert_eq!(libraries.len(), 6);
     libraries
 }
 

@@ -5,8 +5,7 @@ use crate::identifier::{Named, handle_names};
 use crate::text::{for_comment, for_docs, for_message};
 use crate::{Counts, InputFile, Layout, Place, Source};
 use askama::Template;
-use core::fmt::Write;
-use edskit_runtime::{Entry, Flags};
+use edskit_runtime::{Entry, Flags, StorageGroup};
 use edskit_types::{DataType, DataTypeKind, PdoDirection};
 use std::collections::BTreeMap;
 
@@ -82,8 +81,6 @@ impl<'a> View<'a> {
     pub(super) fn new(layout: &'a Layout, naming: &'a Naming) -> Self {
         let rows = layout.entries.iter().zip(&layout.sources);
         let handles = handles(layout);
-        let flags: BTreeMap<String, String> =
-            layout.entries.iter().map(|entry| (flags_name(entry.flags), flags_value(entry.flags))).collect();
         let eds = for_comment(&naming.eds);
         Self {
             naming,
@@ -92,7 +89,7 @@ impl<'a> View<'a> {
             product: layout.product.as_deref().and_then(for_docs),
             counts: layout.counts,
             has_groups: layout.entries.iter().any(|entry| entry.flags.group().is_some()),
-            flags: flags.into_iter().map(|(name, value)| FlagsRow { name, value }).collect(),
+            flags: flags_rows(&layout.entries),
             entries: rows.map(|(entry, source)| entry_row(entry, source)).collect(),
             values: layout.defaults.len(),
             defaults: image(layout, &layout.defaults, true),
@@ -127,57 +124,66 @@ fn comment(text: &str) -> String {
     if text.is_empty() { text } else { format!(" // {text}") }
 }
 
-/// `CONST`, `RW_TPDO_GROUP_2`.
-fn flags_name(flags: Flags) -> String {
-    let access = match (flags.has(Flags::READ), flags.has(Flags::WRITE)) {
-        (true, true) => "RW",
-        (true, false) if flags.has(Flags::VARIABLE) => "RO",
-        (true, false) => "CONST",
-        (false, _) => "WO",
-    };
-    let mut name = access.to_owned();
-    let is_elsewhere = flags.has(Flags::WRITE) && !flags.has(Flags::VARIABLE);
-    let words = [
-        ("_DOMAIN", is_elsewhere),
-        ("_TPDO", flags.has(Flags::TPDO)),
-        ("_RPDO", flags.has(Flags::RPDO)),
-        ("_NODE_RELATIVE", flags.has(Flags::NODE_RELATIVE)),
-        ("_LIMITED", flags.has(Flags::LIMITED)),
-        ("_OPTIONAL", flags.has(Flags::OPTIONAL)),
-    ];
-    name.extend(words.into_iter().filter(|(_, has)| *has).map(|(word, _)| word));
-    if let Some(group) = flags.group() {
-        // Writing to a string does not fail.
-        let _ = write!(name, "_GROUP_{}", group.0);
+/// `CONST`, `RW`: what clients may do, and whether the value lies in the values.
+fn base_name(flags: Flags) -> &'static str {
+    match (flags.has(Flags::READ), flags.has(Flags::WRITE), flags.has(Flags::VARIABLE)) {
+        (true, true, true) => "RW",
+        (true, true, false) => "RW_DOMAIN",
+        (true, false, true) => "RO",
+        (true, false, false) => "CONST",
+        (false, _, true) => "WO",
+        (false, _, false) => "WO_DOMAIN",
     }
-    name
 }
 
-fn flags_value(flags: Flags) -> String {
-    let all = [
-        ("READ", Flags::READ),
-        ("WRITE", Flags::WRITE),
-        ("TPDO", Flags::TPDO),
-        ("RPDO", Flags::RPDO),
-        ("VARIABLE", Flags::VARIABLE),
-        ("NODE_RELATIVE", Flags::NODE_RELATIVE),
-        ("LIMITED", Flags::LIMITED),
-        ("OPTIONAL", Flags::OPTIONAL),
-    ];
-    let names: Vec<&str> = all.into_iter().filter(|(_, flag)| flags.has(*flag)).map(|(name, _)| name).collect();
-    let mut value = names.split_first().map_or("Flags::NONE".to_owned(), |(first, others)| {
-        others.iter().fold(format!("Flags::{first}"), |value, name| format!("{value}.and(Flags::{name})"))
-    });
-    if let Some(group) = flags.group() {
-        let _ = write!(value, ".stored_in(StorageGroup({}))", group.0);
+fn base_value(name: &str) -> &'static str {
+    match name {
+        "RW" => "Flags::READ.and(Flags::WRITE).and(Flags::VARIABLE)",
+        "RW_DOMAIN" => "Flags::READ.and(Flags::WRITE)",
+        "RO" => "Flags::READ.and(Flags::VARIABLE)",
+        "CONST" => "Flags::READ",
+        "WO" => "Flags::WRITE.and(Flags::VARIABLE)",
+        _ => "Flags::WRITE",
     }
-    value
+}
+
+/// What the names of rights have behind the access.
+const FURTHER: [(&str, Flags); 5] = [
+    ("TPDO", Flags::TPDO),
+    ("RPDO", Flags::RPDO),
+    ("NODE_RELATIVE", Flags::NODE_RELATIVE),
+    ("LIMITED", Flags::LIMITED),
+    ("OPTIONAL", Flags::OPTIONAL),
+];
+
+/// `CONST`, `RW_TPDO_GROUP_2`.
+fn flags_name(flags: Flags) -> String {
+    let further = FURTHER.into_iter().filter(|(_, flag)| flags.has(*flag));
+    let name = further.fold(base_name(flags).to_owned(), |name, (word, _)| name + "_" + word);
+    flags.group().map_or(name.clone(), |group| format!("{name}_GROUP_{}", group.0))
+}
+
+/// The constants of all rights in use; each begins with that of its access.
+fn flags_rows(entries: &[Entry]) -> Vec<FlagsRow> {
+    let mut rows = BTreeMap::new();
+    for flags in entries.iter().map(|entry| entry.flags) {
+        let base = base_name(flags);
+        rows.insert(base.to_owned(), base_value(base).to_owned());
+        let further = FURTHER.into_iter().filter(|(_, flag)| flags.has(*flag));
+        let value = further.fold(base.to_owned(), |value, (word, _)| format!("{value}.and(Flags::{word})"));
+        let group = |group: StorageGroup| format!("{value}.stored_in(StorageGroup({}))", group.0);
+        let value = flags.group().map_or(value.clone(), group);
+        if value != base {
+            rows.insert(flags_name(flags), value);
+        }
+    }
+    rows.into_iter().map(|(name, value)| FlagsRow { name, value }).collect()
 }
 
 /// The bytes of an image, a new line for each entry.
 fn image(layout: &Layout, bytes: &[u8], is_variable: bool) -> Vec<ImageRow> {
-    let lies_here = |entry: &&Entry| entry.flags.has(Flags::VARIABLE) == is_variable && entry.size > 0
-        || entry.flags.has(Flags::VARIABLE) && is_variable;
+    let has_bytes = |entry: &Entry| is_variable || entry.size > 0;
+    let lies_here = |entry: &&Entry| entry.flags.has(Flags::VARIABLE) == is_variable && has_bytes(entry);
     let mut starts: Vec<(usize, &Entry)> =
         layout.entries.iter().filter(lies_here).map(|entry| (entry.offset.into(), entry)).collect();
     // Equal constants share their bytes; the first one names them.
