@@ -4,7 +4,7 @@
 #[allow(dead_code, unreachable_pub, reason = "a device does not need everything that its EDS describes")]
 pub mod {{ naming.module }} {
     use {{ naming.runtime }}::types::{DataType, Index,{% if !checks.is_empty() %} MappingEntry,{% endif %} SubIndex};
-    use {{ naming.runtime }}::{Entry, Flags, Limits, Memory, Parts, {% if !limits.is_empty() || has_positions %}Position, {% endif %}{% if has_groups %}StorageGroup, {% endif %}Table};
+    use {{ naming.runtime }}::{Entry, Flags, Limits, Memory, Parts, {% if !limits.is_empty() %}Position, {% endif %}{% if has_groups %}StorageGroup, {% endif %}Table};
 
     /// The object dictionary: the values that can change, and the working memory of a node.
     // Bytes of values, RPDOs, TPDOs, mapped entries, SDO servers, heartbeat consumers, bytes of buffers.

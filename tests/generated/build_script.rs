@@ -2,7 +2,8 @@
 
 use crate::compiler::{Packages, dependency, stderr};
 
-const BUILD: &str = "//! Generates the dictionary.\nfn main() {\n    edskit_codegen::compile(\"eds/Pump.eds\");\n}\n";
+const BUILD: &str =
+    "//! Generates the dictionary.\nfn main() {\n    edskit_codegen::compile(\"eds/Pump.eds\");\n}\n";
 
 const MAIN: &str = r#"//! A device.
 #![deny(warnings)]
@@ -57,7 +58,8 @@ fn a_device_is_built_and_runs() {
     let warning = "warning: pump@0.0.0: eds/Pump.toml:15:1: GEN the dictionary has no such entry";
     assert!(packages.clean(&output).contains(warning), "{}", packages.clean(&output));
 
-    let eds = fixture("Pump.eds").replace("0x20020020", "0x20030020").replace("DataType=0x0018", "DataType=0x0999");
+    let eds =
+        fixture("Pump.eds").replace("0x20020020", "0x20030020").replace("DataType=0x0018", "DataType=0x0999");
     packages.write("pump/eds/Pump.eds", &eds);
     let output = packages.cargo(&["check", "-p", "pump"]);
     assert!(!output.status.success());

@@ -38,13 +38,21 @@ fn a_mapping_that_cannot_be_stops_the_compiler_at_the_place_in_the_eds() {
     packages.add_library("good", [code(&good, "good.eds").as_str()]);
     packages.check();
 
-    let bad = eds(&["0x20000008", "0x20010010", "0x20030010", "0x20060010", "0x00060010", "0x20040028", "0x20020040"]);
+    let bad = eds(&[
+        "0x20000008",
+        "0x20010010",
+        "0x20030010",
+        "0x20060010",
+        "0x00060010",
+        "0x20040028",
+        "0x20020040",
+    ]);
     let code = code(&bad, "eds/bad {device}.eds");
     packages.add_library("bad", [code.as_str()]);
     let output = packages.cargo(&["check", "-p", "bad"]);
     assert!(!output.status.success());
     let lines: BTreeSet<String> =
-        [6, 29, 33, 37, 41, 45, 49].iter().map(|line| format!("eds/bad {{device}}.eds:{line}:14")).collect();
+        [6, 34, 38, 42, 46, 50, 54].iter().map(|line| format!("eds/bad {{device}}.eds:{line}:14")).collect();
     let compiler = stderr(&output);
     assert_eq!(complaints(&compiler), lines, "{compiler}");
     assert!(compiler.contains("TPDO1 cannot carry 2001h sub-index 00h with 16 bits"), "{compiler}");

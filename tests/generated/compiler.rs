@@ -41,7 +41,10 @@ impl Packages {
     /// Runs `cargo` in the folder.
     pub(crate) fn cargo(&self, arguments: &[&str]) -> Output {
         let members: Vec<String> = self.names.iter().map(|name| format!("{name:?}")).collect();
-        self.write("Cargo.toml", &format!("[workspace]\nresolver = \"3\"\nmembers = [{}]\n", members.join(", ")));
+        self.write(
+            "Cargo.toml",
+            &format!("[workspace]\nresolver = \"3\"\nmembers = [{}]\n", members.join(", ")),
+        );
         let lock = fs::read_to_string(edskit_tests::root().join("Cargo.lock")).expect("there is a lock file");
         self.write("Cargo.lock", &lock);
         let mut command = Command::new(env!("CARGO"));

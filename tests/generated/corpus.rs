@@ -37,7 +37,8 @@ fn corpus_generates() {
     good.sort_by_key(|code| core::cmp::Reverse(code.len()));
     let mut parts = vec![Vec::new(); PACKAGES];
     for code in &good {
-        let shortest = parts.iter_mut().min_by_key(|part| part.iter().map(|code: &&str| code.len()).sum::<usize>());
+        let shortest =
+            parts.iter_mut().min_by_key(|part| part.iter().map(|code: &&str| code.len()).sum::<usize>());
         shortest.expect("there are packages").push(code.as_str());
     }
     for (number, part) in parts.into_iter().enumerate() {

@@ -63,10 +63,10 @@ fn eds(name: &[u8]) -> Vec<u8> {
         b"\n[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nAccessType=rw\nDefaultValue=1\n[1A00sub1]\nDataType=7\n\
           AccessType=rw\nDefaultValue=0x20030008\n[2003]\nDataType=5\nAccessType=ro\nPDOMapping=1\nParameterName=",
     ];
-    let mut eds = parts.join(name);
-    eds.extend_from_slice(name);
-    eds.push(b'\n');
-    eds
+    // The text behind DefaultValue is a value: only as much of it as a dictionary has room for.
+    let value = &name[..name.len().min(1000)];
+    let names = [name, name, name, name, name, value, name];
+    parts.iter().zip(names).flat_map(|(part, name)| [part, name].concat()).chain(*b"\n").collect()
 }
 
 /// The code of the file, with the name in the side-file and in the path of the EDS too.
@@ -153,10 +153,14 @@ fn hostile_names_stay_in_comments_and_literals() {
             panic!("name {number}: {at:?} {:?}", at.map(|at| &found[at.saturating_sub(5)..at + 5]));
         }
     }
-    let many = format!("{}", (0x2000..0x2000 + 10_000).fold(String::new(), |mut eds, index| {
-        write!(eds, "[{index:X}]\nParameterName=pwned\nDataType=5\nAccessType=rw\n").expect("a string can be written to");
-        eds
-    }));
+    let many = format!(
+        "{}",
+        (0x2000..0x2000 + 10_000).fold(String::new(), |mut eds, index| {
+            write!(eds, "[{index:X}]\nParameterName=pwned\nDataType=5\nAccessType=rw\n")
+                .expect("a string can be written to");
+            eds
+        })
+    );
     let many = render(&parse(many.as_bytes(), None).expect("it can be laid out"), &Naming::of("many.eds"));
     assert!(tokens(&many).iter().all(|token| !token.contains(MARK)));
 

@@ -20,7 +20,8 @@ fn ten_thousand_objects_take_less_than_a_second() {
     }
     let linter = Linter::new(RuleSet::none());
     let start = Instant::now();
-    let generated = generate(eds.as_bytes(), None, &Naming::of("Large.eds"), &linter).expect("it can be generated");
+    let generated =
+        generate(eds.as_bytes(), None, &Naming::of("Large.eds"), &linter).expect("it can be generated");
     let time = start.elapsed();
     assert_eq!(generated.layout.entries.len(), 10_000);
     assert!(time < Duration::from_secs(1), "{time:?}");

@@ -109,7 +109,8 @@ impl Config {
             say(cargo, "warning", &line(problem))?;
         }
         let Some(folder) = self.out_dir.clone().or_else(|| out_dir.map(PathBuf::from)) else {
-            let message = "OUT_DIR is not set: call this in a build script, or name a folder with Config::out_dir";
+            let message =
+                "OUT_DIR is not set: call this in a build script, or name a folder with Config::out_dir";
             return say(cargo, "error", message);
         };
         let path = folder.join(self.file_name(eds));

@@ -9,11 +9,62 @@ const MOST_CHARACTERS: usize = 60;
 
 /// What may not name a module, or would be in the way of the crates that generated code names.
 const RESERVED: &[&str] = &[
-    "_", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
-    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro",
-    "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super",
-    "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
-    "alloc", "core", "std", "edskit_runtime",
+    "_",
+    "abstract",
+    "as",
+    "async",
+    "await",
+    "become",
+    "box",
+    "break",
+    "const",
+    "continue",
+    "crate",
+    "do",
+    "dyn",
+    "else",
+    "enum",
+    "extern",
+    "false",
+    "final",
+    "fn",
+    "for",
+    "gen",
+    "if",
+    "impl",
+    "in",
+    "let",
+    "loop",
+    "macro",
+    "match",
+    "mod",
+    "move",
+    "mut",
+    "override",
+    "priv",
+    "pub",
+    "ref",
+    "return",
+    "self",
+    "static",
+    "struct",
+    "super",
+    "trait",
+    "true",
+    "try",
+    "type",
+    "typeof",
+    "unsafe",
+    "unsized",
+    "use",
+    "virtual",
+    "where",
+    "while",
+    "yield",
+    "alloc",
+    "core",
+    "std",
+    "edskit_runtime",
 ];
 
 /// The name of the module for an EDS: the file name without its ending, in lower case with underscores.
@@ -133,7 +184,8 @@ fn place_name(entry: &Named<'_>) -> String {
 
 /// Whether a name looks like one that is made from a place.
 fn is_place_name(name: &str) -> bool {
-    let is_hex = |text: &str, digits| text.len() == digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let is_hex =
+        |text: &str, digits| text.len() == digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());
     name.strip_prefix("OBJECT_").is_some_and(|place| match place.split_once('_') {
         Some((index, sub_index)) => is_hex(index, 4) && is_hex(sub_index, 2),
         None => is_hex(place, 4),
@@ -183,8 +235,13 @@ mod tests {
             (0x2100, 1, Some("Ramp"), "Ramp1"),
             (0x2200, 1, Some(""), "Level"),
         ]);
-        let wanted =
-            ["IDENTITY_OBJECT_NR_OF_OBJECTS", "IDENTITY_OBJECT_VENDOR_ID", "IDENTITY_OBJECT", "RAMP1", "LEVEL"];
+        let wanted = [
+            "IDENTITY_OBJECT_NR_OF_OBJECTS",
+            "IDENTITY_OBJECT_VENDOR_ID",
+            "IDENTITY_OBJECT",
+            "RAMP1",
+            "LEVEL",
+        ];
         assert_eq!(all, wanted);
     }
 

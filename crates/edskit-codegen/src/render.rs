@@ -46,7 +46,9 @@ impl Naming {
 #[must_use]
 pub fn render(layout: &Layout, naming: &Naming) -> String {
     // Neither the view's types nor a string fail to be written.
-    View::new(layout, naming).render().unwrap_or_else(|error| format!("compile_error!({:?});\n", error.to_string()))
+    View::new(layout, naming)
+        .render()
+        .unwrap_or_else(|error| format!("compile_error!({:?});\n", error.to_string()))
 }
 
 #[cfg(test)]

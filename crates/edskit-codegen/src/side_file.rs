@@ -164,8 +164,7 @@ struct RawExtra {
 impl Raw {
     fn check(self, text: &str) -> Result<SideFile, Complaint> {
         let optional = self.optional.iter().map(|places| said(places, ()));
-        let storage =
-            self.storage.iter().map(|(places, group)| said(places, check_group(group)?));
+        let storage = self.storage.iter().map(|(places, group)| said(places, check_group(group)?));
         let capacity = self.capacity.into_iter().map(|(places, capacity)| said(&places, capacity));
         let unit = self.unit.into_iter().map(|(places, unit)| said(&places, unit));
         Ok(SideFile {
@@ -210,7 +209,10 @@ fn said<T>(places: &Spanned<String>, what: T) -> Result<Said<T>, Complaint> {
 fn check_places(places: &Spanned<String>) -> Result<Places, Complaint> {
     Places::parse(places.get_ref()).ok_or_else(|| {
         let text = places.get_ref();
-        (places.span(), format!("`{text}` names no entries; write them as `2000`, `1018sub4` or `2000-20FFsub1-3`"))
+        (
+            places.span(),
+            format!("`{text}` names no entries; write them as `2000`, `1018sub4` or `2000-20FFsub1-3`"),
+        )
     })
 }
 

@@ -83,7 +83,10 @@ fn findings_are_told_with_their_place() {
     folder.write("a.toml", "[unit]\n'2000' = 'V'\n");
     let warnings = folder.run(&Config::new().rules(rules), &eds);
     assert!(warnings.contains("cargo::warning=<folder>/a.eds:6:10: GEN a limit that depends"), "{warnings}");
-    assert!(warnings.contains("cargo::warning=<folder>/a.toml:2:1: GEN the dictionary has no such"), "{warnings}");
+    assert!(
+        warnings.contains("cargo::warning=<folder>/a.toml:2:1: GEN the dictionary has no such"),
+        "{warnings}"
+    );
 }
 
 #[test]
@@ -93,7 +96,9 @@ fn what_cannot_be_read_or_written_is_an_error() {
     assert!(told.contains("cargo::error=<folder>/none.eds: "), "{told}");
     let eds = folder.write("a.eds", EDS);
     folder.write("a.toml", "unit = 1\n");
-    assert!(folder.run(&without_rules(), &eds).contains("cargo::error=<folder>/a.toml:1:8: GEN invalid type"));
+    assert!(
+        folder.run(&without_rules(), &eds).contains("cargo::error=<folder>/a.toml:1:8: GEN invalid type")
+    );
     let told = folder.run(&without_rules().side_file(folder.0.join("none.toml")), &eds);
     assert!(told.contains("cargo::error=<folder>/none.toml: "), "{told}");
     folder.write("a.toml", "");

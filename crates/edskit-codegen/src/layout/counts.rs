@@ -42,7 +42,8 @@ impl Counts {
                 && (1..=MOST_MAPPED).contains(&entry.sub_index.0)
                 && has(Index(entry.index.0 - 0x200), COB_ID)
         };
-        let others = entries.chunk_by(|a, b| a.index == b.index).filter(|object| is_other_server(object[0].index));
+        let others =
+            entries.chunk_by(|a, b| a.index == b.index).filter(|object| is_other_server(object[0].index));
         let servers = 1 + others.count();
         let consumer = |entry: &&Entry| entry.index == Index::CONSUMER_HEARTBEAT;
         let consumers = entries.iter().filter(consumer).map(|entry| entry.sub_index.0.into()).max();

@@ -41,8 +41,10 @@ impl Groups {
         if !item.access.is_writable() {
             return None;
         }
-        let is_parameter =
-            || item.access == AccessType::Rw && self.received.binary_search(&(item.index, item.sub_index)).is_err();
+        let is_parameter = || {
+            item.access == AccessType::Rw
+                && self.received.binary_search(&(item.index, item.sub_index)).is_err()
+        };
         let group = match item.index.0 {
             // Histories, commands, the time of day, and programs are no parameters.
             0x1003 | 0x1010 | 0x1011 | 0x1013 | 0x1023..=0x1026 | 0x1F50..=0x1F5F | 0x1F82 | 0x1F83 => None,

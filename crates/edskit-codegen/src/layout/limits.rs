@@ -31,7 +31,8 @@ fn integer(data_type: DataType, low: Option<Value<'_>>, high: Option<Value<'_>>)
 }
 
 fn real(data_type: DataType, low: Option<Value<'_>>, high: Option<Value<'_>>) -> Option<(u64, u64)> {
-    let number = |value: Option<Value<'_>>| value.and_then(|value| value.real(data_type)).filter(|r| !r.is_nan());
+    let number =
+        |value: Option<Value<'_>>| value.and_then(|value| value.real(data_type)).filter(|r| !r.is_nan());
     let low = number(low).unwrap_or(f64::NEG_INFINITY);
     let high = number(high).unwrap_or(f64::INFINITY);
     let bits = |real: f64| match data_type {
@@ -63,7 +64,10 @@ mod tests {
         assert_eq!(limits(DataType::Integer8, "0x80", "0x7F"), None);
         assert_eq!(limits(DataType::Integer64, "", "-1"), Some((i64::MIN as u64, u64::MAX)));
         assert_eq!(limits(DataType::Real32, "0", ""), Some((0, f32::INFINITY.to_bits().into())));
-        assert_eq!(limits(DataType::Real64, "", "1.5"), Some((f64::NEG_INFINITY.to_bits(), 1.5_f64.to_bits())));
+        assert_eq!(
+            limits(DataType::Real64, "", "1.5"),
+            Some((f64::NEG_INFINITY.to_bits(), 1.5_f64.to_bits()))
+        );
         assert_eq!(limits(DataType::VisibleString, "1", "2"), None);
         assert_eq!(limits(DataType::Unsigned8, "$NODEID", "9"), Some((0, 9)));
     }

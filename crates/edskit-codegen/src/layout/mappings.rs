@@ -94,7 +94,10 @@ impl Layout {
                     let entry = mapped.entry;
                     let what = format!("{} sub-index {}", entry.index(), entry.sub_index());
                     let bits = entry.bits();
-                    report(&mapped.place, format!("{mapping} cannot carry {what} with {bits} bits: {reason}"));
+                    report(
+                        &mapped.place,
+                        format!("{mapping} cannot carry {what} with {bits} bits: {reason}"),
+                    );
                 }
             }
         }
@@ -157,7 +160,9 @@ pub(super) fn read(items: &[Item], document: &Document) -> Vec<Mapping> {
             Place { file: item.source.file, span, position }
         };
         let count = &object[0];
-        let Some(mapped) = count.default.as_ref().filter(|_| count.sub_index == SubIndex(0)) else { continue };
+        let Some(mapped) = count.default.as_ref().filter(|_| count.sub_index == SubIndex(0)) else {
+            continue;
+        };
         let highest = mapped.bytes.first().copied().unwrap_or(0);
         if highest == 0 || highest > MOST_ENTRIES {
             continue;

@@ -137,7 +137,8 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
         let position = Position(entries.len() as u16);
         let (mut entry, is_within) = images.place(item, side_file);
         if !is_within {
-            let message = format!("the values of this entry and those before it take more than {MOST_BYTES} bytes");
+            let message =
+                format!("the values of this entry and those before it take more than {MOST_BYTES} bytes");
             errors.push(problem_at(sheet, side_file, &item.source, message));
             return Err(errors);
         }
@@ -172,9 +173,7 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
 fn problem_at(sheet: &Datasheet, side_file: &SideFile, source: &Source, message: String) -> Problem {
     match source.file {
         InputFile::Eds => Problem::in_eds(sheet.document(), Severity::Error, source.span, message),
-        InputFile::SideFile => {
-            Problem::in_side_file(&side_file.text, Severity::Error, source.span, message)
-        }
+        InputFile::SideFile => Problem::in_side_file(&side_file.text, Severity::Error, source.span, message),
     }
 }
 

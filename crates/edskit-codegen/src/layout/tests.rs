@@ -27,9 +27,8 @@ fn messages(problems: &[Problem]) -> Vec<String> {
 
 #[test]
 fn what_can_change_lies_in_the_values() {
-    let is_variable = |index, keys: &str| {
-        flags(&object(&format!("{index:X}"), "x", keys), index, 0).has(Flags::VARIABLE)
-    };
+    let is_variable =
+        |index, keys: &str| flags(&object(&format!("{index:X}"), "x", keys), index, 0).has(Flags::VARIABLE);
     for (index, keys) in [
         (0x1001, "DataType=5 AccessType=ro DefaultValue=0"),
         (0x1002, "DataType=7 AccessType=ro DefaultValue=0"),
@@ -95,7 +94,8 @@ fn texts_have_room() {
 
 #[test]
 fn equal_constants_share_their_bytes() {
-    let eds = ["1000", "1002", "2000"].map(|index| object(index, "x", "DataType=7 AccessType=const DefaultValue=5"));
+    let eds = ["1000", "1002", "2000"]
+        .map(|index| object(index, "x", "DataType=7 AccessType=const DefaultValue=5"));
     let layout = layout(&eds.concat(), "");
     assert_eq!(layout.constants, [5, 0, 0, 0]);
     assert_eq!(layout.defaults, [5, 0, 0, 0], "1002h can change");
@@ -117,7 +117,10 @@ fn compact_storage_is_expanded() {
 fn implicit_pdos_have_parameters() {
     let info = "[DeviceInfo]\nCompactPDO=0x13\nNrOfRXPDO=5\nNrOfTXPDO=1\nGranularity=16\n";
     let of_eds = layout(info, "");
-    assert_eq!(of_eds.counts, Counts { rpdos: 5, tpdos: 1, mapped: 24, servers: 1, consumers: 0, buffers: 0 });
+    assert_eq!(
+        of_eds.counts,
+        Counts { rpdos: 5, tpdos: 1, mapped: 24, servers: 1, consumers: 0, buffers: 0 }
+    );
     assert_eq!(of_eds.default_of(&entry(&of_eds, 0x1400, 0)), [5]);
     let second = entry(&of_eds, 0x1401, 1);
     assert!(second.flags.has(Flags::NODE_RELATIVE.and(Flags::WRITE)));
@@ -226,7 +229,9 @@ fn a_side_file_adds_sub_objects() {
         + &object("2000sub1", "x", "DataType=6 AccessType=rw")
         + &object("2001", "y", "DataType=6 AccessType=rw");
     let extra = |entries: &str| {
-        format!("[[extra]]\nentries = '{entries}'\nname = 'More'\ndata-type = 'INTEGER8'\naccess = 'ro'\ndefault = '-1'\n")
+        format!(
+            "[[extra]]\nentries = '{entries}'\nname = 'More'\ndata-type = 'INTEGER8'\naccess = 'ro'\ndefault = '-1'\n"
+        )
     };
     let added = layout(&eds, &extra("2000sub2-3"));
     let places: Vec<_> = added.entries.iter().map(|entry| (entry.index.0, entry.sub_index.0)).collect();
@@ -244,7 +249,8 @@ fn a_side_file_adds_sub_objects() {
 
 #[test]
 fn a_side_file_names_entries_of_some_configurations_and_units() {
-    let eds = object("2000", "a", "DataType=6 AccessType=rw") + &object("2001", "b", "DataType=6 AccessType=rw");
+    let eds =
+        object("2000", "a", "DataType=6 AccessType=rw") + &object("2001", "b", "DataType=6 AccessType=rw");
     let layout = layout(&eds, "optional = ['2001', '3000']\n[unit]\n'2000-2001' = 'mm'\n");
     let optional: Vec<bool> = layout.entries.iter().map(|entry| entry.flags.has(Flags::OPTIONAL)).collect();
     assert_eq!(optional, [false, true]);
@@ -258,7 +264,11 @@ fn mappings_are_judged() {
         let head = object("1A00", "Mapping", "ObjectType=9")
             + &object("1A00sub0", "n", &format!("DataType=5 AccessType=rw DefaultValue={}", entries.len()));
         let entry = |(number, entry): (usize, &&str)| {
-            object(&format!("1A00sub{}", number + 1), "m", &format!("DataType=7 AccessType=rw DefaultValue={entry}"))
+            object(
+                &format!("1A00sub{}", number + 1),
+                "m",
+                &format!("DataType=7 AccessType=rw DefaultValue={entry}"),
+            )
         };
         let objects = object("6041", "s", "DataType=6 AccessType=ro PDOMapping=1")
             + &object("6040", "c", "DataType=6 AccessType=rww PDOMapping=1")
@@ -271,14 +281,26 @@ fn mappings_are_judged() {
         lines.iter().map(|line| line.split_once("GEN ").unwrap().1.to_owned()).collect::<Vec<_>>()
     };
     assert!(problems(&["0x60410010"]).is_empty());
-    assert_eq!(problems(&["0x60410008"]), ["TPDO1 cannot carry 6041h sub-index 00h with 8 bits: it has another length"]);
+    assert_eq!(
+        problems(&["0x60410008"]),
+        ["TPDO1 cannot carry 6041h sub-index 00h with 8 bits: it has another length"]
+    );
     assert_eq!(
         problems(&["0x60400010"]),
         ["TPDO1 cannot carry 6040h sub-index 00h with 16 bits: it can be mapped in the other direction only"]
     );
-    assert_eq!(problems(&["0x60430020"]), ["TPDO1 cannot carry 6043h sub-index 00h with 32 bits: it cannot be mapped"]);
-    assert_eq!(problems(&["0x60500020"]), ["TPDO1 cannot carry 6050h sub-index 00h with 32 bits: there is no such entry"]);
-    assert_eq!(problems(&["0x00050008"]), ["TPDO1 cannot carry 0005h sub-index 00h with 8 bits: a TPDO has no gaps"]);
+    assert_eq!(
+        problems(&["0x60430020"]),
+        ["TPDO1 cannot carry 6043h sub-index 00h with 32 bits: it cannot be mapped"]
+    );
+    assert_eq!(
+        problems(&["0x60500020"]),
+        ["TPDO1 cannot carry 6050h sub-index 00h with 32 bits: there is no such entry"]
+    );
+    assert_eq!(
+        problems(&["0x00050008"]),
+        ["TPDO1 cannot carry 0005h sub-index 00h with 8 bits: a TPDO has no gaps"]
+    );
     assert_eq!(problems(&["0x60420040", "0x60410010"]), ["TPDO1 carries 80 bits, and a PDO has 64"]);
 }
 
@@ -292,15 +314,20 @@ fn the_fingerprint_is_that_of_the_structure() {
 
 #[test]
 fn what_cannot_be_addressed_is_refused() {
-    let text = object("2000", "x", "DataType=9 AccessType=rw") + &object("2001", "y", "DataType=9 AccessType=rw");
+    let text =
+        object("2000", "x", "DataType=9 AccessType=rw") + &object("2001", "y", "DataType=9 AccessType=rw");
     let refused = parse(text.as_bytes(), Some("[capacity]\n'2000-2001' = 40000\n")).unwrap_err();
     assert_eq!(
         messages(&refused),
         ["a.eds:5:2: GEN the values of this entry and those before it take more than 65535 bytes"]
     );
     let many: String = (0x2000..0x2200)
-        .map(|index| object(&format!("{index:X}"), "x", "ObjectType=8 DataType=5 AccessType=rw CompactSubObj=254"))
+        .map(|index| {
+            object(&format!("{index:X}"), "x", "ObjectType=8 DataType=5 AccessType=rw CompactSubObj=254")
+        })
         .collect();
     let refused = parse(many.as_bytes(), None).unwrap_err();
-    assert!(messages(&refused)[0].ends_with("this is one entry more than the 65535 that a dictionary can have"));
+    assert!(
+        messages(&refused)[0].ends_with("this is one entry more than the 65535 that a dictionary can have")
+    );
 }

@@ -32,7 +32,10 @@ fn names_stay_in_comments() {
 #[test]
 fn an_empty_dictionary_is_rendered_too() {
     let code = render(&parse(b"", None).unwrap(), &Naming::of(".eds"));
-    assert!(code.contains("pub mod eds {") && code.contains("static ENTRIES: [Entry; 0] = [\n    ];"), "{code}");
+    assert!(
+        code.contains("pub mod eds {") && code.contains("static ENTRIES: [Entry; 0] = [\n    ];"),
+        "{code}"
+    );
 }
 
 #[test]

@@ -210,8 +210,12 @@ fn limits(layout: &Layout) -> Vec<LimitsRow> {
     let row = |limits: &edskit_runtime::Limits| {
         let entry = layout.entries.get(usize::from(limits.position.0));
         let number = |bits: u64| match entry.map(|entry| entry.data_type) {
-            Some(data_type) if data_type.is_signed() && (bits as i64) < 0 => format!("{}_i64 as u64", bits as i64),
-            Some(DataType::Real32) => real(f32::from_bits(bits as u32), "f32", |text| format!("{text}.to_bits() as u64")),
+            Some(data_type) if data_type.is_signed() && (bits as i64) < 0 => {
+                format!("{}_i64 as u64", bits as i64)
+            }
+            Some(DataType::Real32) => {
+                real(f32::from_bits(bits as u32), "f32", |text| format!("{text}.to_bits() as u64"))
+            }
             Some(DataType::Real64) => real(f64::from_bits(bits), "f64", |text| format!("{text}.to_bits()")),
             _ => bits.to_string(),
         };
@@ -228,7 +232,11 @@ fn limits(layout: &Layout) -> Vec<LimitsRow> {
 }
 
 /// A real number as an expression for its bits.
-fn real(value: impl Into<f64> + core::fmt::Debug + Copy, kind: &str, bits: impl Fn(String) -> String) -> String {
+fn real(
+    value: impl Into<f64> + core::fmt::Debug + Copy,
+    kind: &str,
+    bits: impl Fn(String) -> String,
+) -> String {
     match value.into() {
         f64::INFINITY => bits(format!("{kind}::INFINITY")),
         f64::NEG_INFINITY => bits(format!("{kind}::NEG_INFINITY")),
@@ -255,15 +263,23 @@ fn checks(layout: &Layout, naming: &Naming) -> Vec<CheckRow> {
             let entry = mapped.entry;
             let (what, bits) = (format!("{} sub-index {}", entry.index(), entry.sub_index()), entry.bits());
             checks.push(CheckRow {
-                condition: format!("can_carry(0x{:04X}_{:04X}, Flags::{right})", entry.0 >> 16, entry.0 & 0xFFFF),
+                condition: format!(
+                    "can_carry(0x{:04X}_{:04X}, Flags::{right})",
+                    entry.0 >> 16,
+                    entry.0 & 0xFFFF
+                ),
                 message: at(&mapped.place, format!("{mapping} cannot carry {what} with {bits} bits")),
             });
         }
-        let bits: Vec<String> = mapping.entries.iter().map(|mapped| mapped.entry.bits().to_string()).collect();
+        let bits: Vec<String> =
+            mapping.entries.iter().map(|mapped| mapped.entry.bits().to_string()).collect();
         if !bits.is_empty() {
             checks.push(CheckRow {
                 condition: format!("{} <= 64", bits.join(" + ")),
-                message: at(&mapping.place, format!("{mapping} carries {} bits, and a PDO has 64", mapping.bits())),
+                message: at(
+                    &mapping.place,
+                    format!("{mapping} carries {} bits, and a PDO has 64", mapping.bits()),
+                ),
             });
         }
     }
@@ -308,6 +324,7 @@ fn docs(entry: &Entry, source: &Source) -> String {
         (Some(name), None) | (None, Some(name)) => format!("{name}: "),
         (None, None) => String::new(),
     };
-    let unit = source.unit.as_deref().and_then(for_docs).map_or_else(String::new, |unit| format!(", in {unit}"));
+    let unit =
+        source.unit.as_deref().and_then(for_docs).map_or_else(String::new, |unit| format!(", in {unit}"));
     format!("{title}`[{}]`, {}, {}{unit}.", source.section, entry.data_type, source.access)
 }

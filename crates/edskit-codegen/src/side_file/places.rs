@@ -40,7 +40,8 @@ impl Places {
 /// One or two numbers of at most so many hexadecimal digits.
 fn range(text: &str, digits: usize) -> Option<RangeInclusive<u16>> {
     let number = |text: &str| {
-        let is_number = (1..=digits).contains(&text.len()) && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let is_number =
+            (1..=digits).contains(&text.len()) && text.bytes().all(|byte| byte.is_ascii_hexdigit());
         is_number.then(|| u16::from_str_radix(text, 16).ok()).flatten()
     };
     let (first, last) = text.split_once('-').unwrap_or((text, text));

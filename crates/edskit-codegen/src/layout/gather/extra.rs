@@ -42,7 +42,10 @@ fn add_one(extra: &Extra, side_file: &SideFile, items: &mut Vec<Item>) -> Result
         }
         let first = described[object.clone()].first();
         if first.is_some_and(|item| item.sub_index == SubIndex(0) && !item.is_count && sub_index.0 > 0) {
-            return Err((extra.span, format!("{index} is described as a variable, which has no sub-objects")));
+            return Err((
+                extra.span,
+                format!("{index} is described as a variable, which has no sub-objects"),
+            ));
         }
         let object_name = first.and_then(|item| item.source.object.clone());
         for item in &mut items[object] {
