@@ -1,11 +1,9 @@
 //! A device's package with a build script, as its author has it.
 
-use crate::compiler::{Packages, dependency, stderr};
+use crate::compiler::{Packages, dependency};
 
-const BUILD: &str =
-    "//! Generates the dictionary.\nfn main() {\n    edskit_codegen::compile(\"eds/Pump.eds\");\n}\n";
-
-const MAIN: &str = r#"//! A device.
+/// What the page does not show.
+const MORE: &str = r#"//! A device that looks at its dictionary.
 #![deny(warnings)]
 
 use edskit_runtime::types::{Index, SubIndex};
@@ -31,37 +29,52 @@ fn main() {
 }
 "#;
 
-fn fixture(name: &str) -> String {
-    let path = edskit_tests::root().join("tests/fixtures/generated").join(name);
+fn eds() -> String {
+    let path = edskit_tests::root().join("tests/fixtures/generated/Pump.eds");
     String::from_utf8(edskit_tests::read(&path)).expect("the file is UTF-8")
 }
 
-fn add(packages: &mut Packages, name: &str, eds: &str, side_file: &str) {
-    let files =
-        [("build.rs", BUILD), ("src/main.rs", MAIN), ("eds/Pump.eds", eds), ("eds/Pump.toml", side_file)];
-    packages.add(name, &format!("\n[build-dependencies]\n{}", dependency("edskit-codegen")), &files);
+/// The block of `docs/generating.md` that begins with this line.
+fn block(first: &str) -> String {
+    let page = edskit_tests::read(&edskit_tests::root().join("docs/generating.md"));
+    let page = String::from_utf8(page).expect("the page is UTF-8");
+    let start = page.find(&format!("\n{first}\n")).expect("the page has the block") + 1;
+    page[start..].split("```").next().unwrap_or_default().to_owned()
 }
 
 #[test]
-fn a_device_is_built_and_runs() {
+fn the_device_of_the_page_is_built_and_runs() {
+    let (build, main, side_file) = (block("// build.rs"), block("// src/main.rs"), block("# Pump.toml"));
     let mut packages = Packages::new("build-script");
-    add(&mut packages, "pump", &fixture("Pump.eds"), &fixture("Pump.toml"));
-    let output = packages.cargo(&["run", "--quiet", "-p", "pump"]);
-    assert!(output.status.success(), "{}", stderr(&output));
-    assert_eq!(String::from_utf8_lossy(&output.stdout), "works\n");
-    assert_eq!(stderr(&output), "", "no warning");
+    packages.add(
+        "pump",
+        &format!("\n[build-dependencies]\n{}", dependency("edskit-codegen")),
+        &[
+            ("build.rs", &build),
+            ("src/main.rs", &main),
+            ("src/bin/more.rs", MORE),
+            ("eds/Pump.eds", &eds()),
+            ("eds/Pump.toml", &side_file),
+        ],
+    );
+    for (program, printed) in [("pump", "a heartbeat every 1000 ms\n"), ("more", "works\n")] {
+        let output = packages.cargo(&["run", "--quiet", "--bin", program]);
+        assert!(output.status.success(), "{}", packages.clean(&output));
+        assert_eq!(String::from_utf8_lossy(&output.stdout), printed);
+        assert_eq!(packages.clean(&output), "", "no warning");
+    }
 
-    let side_file = fixture("Pump.toml").replace("\"1017\" =", "\"1019\" =");
-    packages.write("pump/eds/Pump.toml", &side_file);
-    let output = packages.cargo(&["check", "-p", "pump"]);
+    packages.write("pump/eds/Pump.toml", &side_file.replace("\"1017\" =", "\"1019\" ="));
+    let output = packages.cargo(&["check"]);
     assert!(output.status.success());
-    let warning = "warning: pump@0.0.0: eds/Pump.toml:15:1: GEN the dictionary has no such entry";
+    let warning = "warning: pump@0.0.0: eds/Pump.toml:17:1: GEN the dictionary has no such entry";
     assert!(packages.clean(&output).contains(warning), "{}", packages.clean(&output));
 
-    let eds =
-        fixture("Pump.eds").replace("0x20020020", "0x20030020").replace("DataType=0x0018", "DataType=0x0999");
+    let eds = eds().replace("0x20020020", "0x20030020").replace("DataType=0x0018", "DataType=0x0999");
     packages.write("pump/eds/Pump.eds", &eds);
-    let output = packages.cargo(&["check", "-p", "pump"]);
+    let output = packages.cargo(&["check"]);
     assert!(!output.status.success());
-    insta::assert_snapshot!(packages.clean(&output));
+    let printed = packages.clean(&output);
+    let errors: Vec<&str> = printed.lines().filter(|line| line.starts_with("error")).collect();
+    insta::assert_snapshot!(errors.join("\n"));
 }

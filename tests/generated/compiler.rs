@@ -67,9 +67,11 @@ impl Packages {
         fs::write(path, text).expect("the file can be written");
     }
 
-    /// What cargo printed, with the paths of this machine taken out.
+    /// What cargo printed, without the folder's own path and what other tests are to blame for.
     pub(crate) fn clean(&self, output: &Output) -> String {
-        stderr(output).replace(self.folder.to_str().expect("the path is UTF-8"), "<folder>")
+        let text = stderr(output).replace(self.folder.to_str().expect("the path is UTF-8"), "<folder>");
+        let is_waiting = |line: &&str| line.trim_start().starts_with("Blocking waiting");
+        text.lines().filter(|line| !is_waiting(line)).flat_map(|line| [line, "\n"]).collect()
     }
 }
 

@@ -3,19 +3,26 @@ use crate::{generate, parse};
 use edskit_lint::{Linter, RuleSet};
 
 const EDS: &str = include_str!("../../../../tests/fixtures/generated/Pump.eds");
-const SIDE_FILE: &str = include_str!("../../../../tests/fixtures/generated/Pump.toml");
+
+/// The side-file in the documentation.
+fn side_file() -> &'static str {
+    let page = include_str!("../../../../docs/generating.md");
+    let (_, block) = page.split_once("```toml\n# Pump.toml\n").unwrap();
+    block.split_once("```").unwrap().0
+}
 
 #[test]
 fn a_small_device() {
     let linter = Linter::new(RuleSet::default());
-    let generated = generate(EDS.as_bytes(), Some(SIDE_FILE), &Naming::of("eds/Pump.eds"), &linter).unwrap();
+    let generated =
+        generate(EDS.as_bytes(), Some(side_file()), &Naming::of("eds/Pump.eds"), &linter).unwrap();
     assert_eq!(generated.warnings, []);
     insta::assert_snapshot!(generated.code);
 }
 
 #[test]
 fn the_same_input_gives_the_same_bytes() {
-    let code = || render(&parse(EDS.as_bytes(), Some(SIDE_FILE)).unwrap(), &Naming::of("Pump.eds"));
+    let code = || render(&parse(EDS.as_bytes(), Some(side_file())).unwrap(), &Naming::of("Pump.eds"));
     assert_eq!(code(), code());
 }
 
