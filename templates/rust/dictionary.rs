@@ -104,6 +104,16 @@ pub mod {{ naming.module }} {
     );
 {%- endfor %}
 
+    /// Whether the entries of a mapping fit one PDO.
+    const fn fit(mapping: &[u32]) -> bool {
+        let (mut number, mut bits) = (0, 0);
+        while number < mapping.len() {
+            bits += MappingEntry(mapping[number]).bits() as u32;
+            number += 1;
+        }
+        bits <= 64
+    }
+
     /// Whether a PDO can carry what a mapping entry names.
     const fn can_carry(mapping: u32, right: Flags) -> bool {
         let mapping = MappingEntry(mapping);
@@ -134,7 +144,7 @@ pub mod {{ naming.module }} {
         match entry.data_type {
             DataType::Boolean => bits == 1 || bits == 8,
             data_type if data_type.is_string() => {
-                bits > 0 && bits <= 64 && bits % 8 == 0 && bits as u16 / 8 <= entry.size
+                bits > 0 && bits <= 64 && bits.is_multiple_of(8) && bits as u16 / 8 <= entry.size
             }
             data_type => has_bits(Some(data_type), bits),
         }

@@ -36,7 +36,7 @@ fn a_mapping_that_cannot_be_stops_the_compiler_at_the_place_in_the_eds() {
     let mut packages = Packages::new("checks");
     let good = eds(&["0x20000010", "0x20040020", "0x20050001", "0x20050008"]);
     packages.add_library("good", [code(&good, "good.eds").as_str()]);
-    packages.check();
+    packages.all("clippy");
 
     let bad = eds(&[
         "0x20000008",

@@ -55,9 +55,9 @@ impl Packages {
         command.output().expect("cargo runs")
     }
 
-    /// Checks every package, and says what the compiler says where it does not like one.
-    pub(crate) fn check(&self) {
-        let output = self.cargo(&["check", "--workspace"]);
+    /// Runs a command of cargo over every package, and says what the compiler says where it does not like one.
+    pub(crate) fn all(&self, command: &str) {
+        let output = self.cargo(&[command, "--workspace"]);
         assert!(output.status.success(), "{}", stderr(&output));
     }
 

@@ -167,7 +167,6 @@ fn hostile_names_stay_in_comments_and_literals() {
     let mut packages = Packages::new("hostile");
     packages.add_library("names", codes.iter().map(String::as_str));
     packages.add_library("equal-names", [many.as_str()]);
-    packages.check();
-    let output = packages.cargo(&["doc", "--workspace", "--no-deps"]);
-    assert!(output.status.success(), "{}", packages.clean(&output));
+    packages.all("clippy");
+    packages.all("doc");
 }

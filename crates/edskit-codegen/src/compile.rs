@@ -10,10 +10,8 @@ use std::{env, fs};
 /// Generates the dictionary of an EDS or DCF, whose path is seen from the package; for build scripts.
 ///
 /// ```no_run
-/// // build.rs
-/// fn main() {
-///     edskit_codegen::compile("eds/Device.eds");
-/// }
+/// // in fn main() of build.rs
+/// edskit_codegen::compile("eds/Device.eds");
 /// ```
 ///
 /// The module `device` lies in `$OUT_DIR/Device.rs` afterwards, and `edskit_runtime::include_dictionary!("Device")` takes
@@ -26,10 +24,8 @@ pub fn compile(eds: impl AsRef<Path>) {
 /// [`compile`] with other than the usual settings.
 ///
 /// ```no_run
-/// // build.rs
-/// fn main() {
-///     edskit_codegen::Config::new().name("pump").runtime("::device_support::edskit_runtime").compile("eds/Device.eds");
-/// }
+/// // in fn main() of build.rs
+/// edskit_codegen::Config::new().name("pump").runtime("::device_support::edskit_runtime").compile("eds/Device.eds");
 /// ```
 #[derive(Clone, Default, Debug)]
 pub struct Config {

@@ -6,7 +6,7 @@ use crate::text::{for_comment, for_docs, for_message};
 use crate::{Counts, InputFile, Layout, Place, Source};
 use askama::Template;
 use edskit_runtime::{Entry, Flags, StorageGroup};
-use edskit_types::{DataType, DataTypeKind, PdoDirection};
+use edskit_types::{DataType, DataTypeKind, MappingEntry, PdoDirection};
 use std::collections::BTreeMap;
 
 /// How many bytes stand in one line of an image.
@@ -246,42 +246,30 @@ fn real(
 }
 
 fn checks(layout: &Layout, naming: &Naming) -> Vec<CheckRow> {
-    let at = |place: &Place, text: String| {
+    let check = |place: &Place, condition: String, text: String| {
         let file = match place.file {
             InputFile::Eds => &naming.eds,
             InputFile::SideFile => &naming.side_file,
         };
-        for_message(&format!("{file}:{}: {text}", place.position))
+        CheckRow { condition, message: for_message(&format!("{file}:{}: {text}", place.position)) }
     };
+    let number = |entry: MappingEntry| format!("0x{:04X}_{:04X}", entry.0 >> 16, entry.0 & 0xFFFF);
     let mut checks = Vec::new();
-    for mapping in &layout.mappings {
+    for mapping in layout.mappings.iter().filter(|mapping| !mapping.entries.is_empty()) {
         let right = match mapping.direction {
             PdoDirection::Receive => "RPDO",
             PdoDirection::Transmit => "TPDO",
         };
         for mapped in &mapping.entries {
             let entry = mapped.entry;
-            let (what, bits) = (format!("{} sub-index {}", entry.index(), entry.sub_index()), entry.bits());
-            checks.push(CheckRow {
-                condition: format!(
-                    "can_carry(0x{:04X}_{:04X}, Flags::{right})",
-                    entry.0 >> 16,
-                    entry.0 & 0xFFFF
-                ),
-                message: at(&mapped.place, format!("{mapping} cannot carry {what} with {bits} bits")),
-            });
+            let what =
+                format!("{} sub-index {} with {} bits", entry.index(), entry.sub_index(), entry.bits());
+            let condition = format!("can_carry({}, Flags::{right})", number(entry));
+            checks.push(check(&mapped.place, condition, format!("{mapping} cannot carry {what}")));
         }
-        let bits: Vec<String> =
-            mapping.entries.iter().map(|mapped| mapped.entry.bits().to_string()).collect();
-        if !bits.is_empty() {
-            checks.push(CheckRow {
-                condition: format!("{} <= 64", bits.join(" + ")),
-                message: at(
-                    &mapping.place,
-                    format!("{mapping} carries {} bits, and a PDO has 64", mapping.bits()),
-                ),
-            });
-        }
+        let numbers: Vec<String> = mapping.entries.iter().map(|mapped| number(mapped.entry)).collect();
+        let text = format!("{mapping} carries {} bits, and a PDO has 64", mapping.bits());
+        checks.push(check(&mapping.place, format!("fit(&[{}])", numbers.join(", ")), text));
     }
     checks
 }
