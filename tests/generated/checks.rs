@@ -35,7 +35,9 @@ pub(crate) fn complaints(compiler: &str) -> BTreeSet<String> {
 fn a_mapping_that_cannot_be_stops_the_compiler_at_the_place_in_the_eds() {
     let mut packages = Packages::new("checks");
     let good = eds(&["0x20000010", "0x20040020", "0x20050001", "0x20050008"]);
-    packages.add_library("good", [code(&good, "good.eds").as_str()]);
+    let many_pdos = "[DeviceInfo]\nGranularity=8\nCompactPDO=0x3F\nNrOfRXPDO=512\nNrOfTXPDO=512\n";
+    let codes = [code(&good, "good.eds"), code("", "empty.eds"), code(many_pdos, "many_pdos.eds")];
+    packages.add_library("good", codes.iter().map(String::as_str));
     packages.all("clippy");
 
     let bad = eds(&[

@@ -153,14 +153,11 @@ fn hostile_names_stay_in_comments_and_literals() {
             panic!("name {number}: {at:?} {:?}", at.map(|at| &found[at.saturating_sub(5)..at + 5]));
         }
     }
-    let many = format!(
-        "{}",
-        (0x2000..0x2000 + 10_000).fold(String::new(), |mut eds, index| {
-            write!(eds, "[{index:X}]\nParameterName=pwned\nDataType=5\nAccessType=rw\n")
-                .expect("a string can be written to");
-            eds
-        })
-    );
+    let many = (0x2000..0x2000 + 10_000).fold(String::new(), |mut eds, index| {
+        write!(eds, "[{index:X}]\nParameterName=pwned\nDataType=5\nAccessType=rw\n")
+            .expect("a string can be written to");
+        eds
+    });
     let many = render(&parse(many.as_bytes(), None).expect("it can be laid out"), &Naming::of("many.eds"));
     assert!(tokens(&many).iter().all(|token| !token.contains(MARK)));
 

@@ -132,6 +132,13 @@ fn implicit_pdos_have_parameters() {
 }
 
 #[test]
+fn there_can_be_512_pdos_each_way() {
+    let layout = layout("[DeviceInfo]\nGranularity=8\nCompactPDO=0x3F\nNrOfRXPDO=512\nNrOfTXPDO=512\n", "");
+    assert_eq!((layout.counts.rpdos, layout.counts.tpdos, layout.counts.mapped), (512, 512, 1024 * 8));
+    assert!(layout.defaults.len() < MOST_BYTES, "{}", layout.defaults.len());
+}
+
+#[test]
 fn a_deftype_is_followed_and_unknown_types_are_domains() {
     let eds = [
         object("0041", "Speed", "ObjectType=5 DataType=0x0040"),
