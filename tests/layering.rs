@@ -55,7 +55,7 @@ const OUTER_WORDS: &[&str] = &[
     "std::process",
     "std::thread",
     "std::time",
-    "Instant",
+    "Instant::now",
     "SystemTime",
     "print!",
     "println!",
