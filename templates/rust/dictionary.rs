@@ -64,7 +64,7 @@ pub mod {{ naming.module }} {
 
     static ENTRIES: [Entry; {{ entries.len() }}] = [
 {%- for entry in entries %}
-        entry({{ "0x{:04X}"|format(entry.index) }}, {{ "0x{:02X}"|format(entry.sub_index) }}, DataType::{{ "{:?}"|format(entry.data_type) }}, {{ entry.flags }}, {{ entry.offset }}, {{ entry.size }}),{{ entry.comment }}
+        {{ entry.code }}{{ entry.comment }}
 {%- endfor %}
     ];
 

@@ -167,3 +167,16 @@ fn hostile_names_stay_in_comments_and_literals() {
     packages.all("clippy");
     packages.all("doc");
 }
+
+/// By how much the files that cost time are made smaller: that they cost little is the matter of another test.
+const DIVISOR: usize = 10;
+
+#[test]
+fn files_made_to_cost_time_are_laid_out_or_refused() {
+    for kind in edskit_tests::hostile::ALL {
+        if let Ok(layout) = parse(kind.text(DIVISOR).as_bytes(), None) {
+            let code = render(&layout, &Naming::of("hostile.eds"));
+            assert!(code.parse::<TokenStream>().is_ok(), "{}", kind.what);
+        }
+    }
+}

@@ -124,6 +124,9 @@ impl Layout {
 pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Problem>> {
     let gather::Gathered { items, mut notes, mut errors } = gather::items(sheet, side_file);
     notes.extend(unused(&items, side_file));
+    // In the order of the files, and once where many compact sub-objects are described together.
+    notes.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
+    notes.dedup();
     if items.len() > MOST_ENTRIES {
         let message = format!("this is one entry more than the {MOST_ENTRIES} that a dictionary can have");
         errors.extend(items.last().map(|item| problem_at(sheet, side_file, &item.source, message)));

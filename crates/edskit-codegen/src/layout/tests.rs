@@ -171,6 +171,18 @@ fn a_deftype_is_followed_and_unknown_types_are_domains() {
 }
 
 #[test]
+fn what_compact_sub_objects_share_is_noted_once() {
+    let layout = layout(&object("2000", "x", "ObjectType=8 DataType=0x50 CompactSubObj=200"), "");
+    assert_eq!(
+        messages(&layout.notes),
+        [
+            "a.eds:1:2: GEN [2000] has no access type that can be read, and becomes ro",
+            "a.eds:4:10: GEN [2000] becomes a DOMAIN, which only the application knows: `0x50` is no data type of values",
+        ]
+    );
+}
+
+#[test]
 fn a_configured_value_comes_before_the_default() {
     let eds = object("1017", "x", "DataType=6 AccessType=rw DefaultValue=1 ParameterValue=2")
         + &object("1019", "y", "DataType=5 AccessType=rw DefaultValue=300");

@@ -43,12 +43,7 @@ struct FlagsRow {
 }
 
 struct EntryRow {
-    index: u16,
-    sub_index: u8,
-    data_type: DataType,
-    flags: String,
-    offset: u16,
-    size: u16,
+    code: String,
     comment: String,
 }
 
@@ -79,7 +74,6 @@ struct HandleRow {
 
 impl<'a> View<'a> {
     pub(super) fn new(layout: &'a Layout, naming: &'a Naming) -> Self {
-        let rows = layout.entries.iter().zip(&layout.sources);
         let handles = handles(layout);
         let eds = for_comment(&naming.eds);
         Self {
@@ -90,7 +84,7 @@ impl<'a> View<'a> {
             counts: layout.counts,
             has_groups: layout.entries.iter().any(|entry| entry.flags.group().is_some()),
             flags: flags_rows(&layout.entries),
-            entries: rows.map(|(entry, source)| entry_row(entry, source)).collect(),
+            entries: entry_rows(layout),
             values: layout.defaults.len(),
             defaults: image(layout, &layout.defaults, true),
             constant_bytes: layout.constants.len(),
@@ -106,16 +100,23 @@ impl<'a> View<'a> {
     }
 }
 
-fn entry_row(entry: &Entry, source: &Source) -> EntryRow {
-    EntryRow {
-        index: entry.index.0,
-        sub_index: entry.sub_index.0,
-        data_type: entry.data_type,
-        flags: flags_name(entry.flags),
-        offset: entry.offset,
-        size: entry.size,
-        comment: comment(&source.name),
-    }
+/// The entries, with their names in a column behind them.
+fn entry_rows(layout: &Layout) -> Vec<EntryRow> {
+    let code = |entry: &Entry| {
+        let Entry { index, sub_index, data_type, offset, size, flags } = entry;
+        let (index, sub_index, flags) = (index.0, sub_index.0, flags_name(*flags));
+        format!(
+            "entry(0x{index:04X}, 0x{sub_index:02X}, DataType::{data_type:?}, {flags}, {offset}, {size}),"
+        )
+    };
+    let codes: Vec<String> = layout.entries.iter().map(code).collect();
+    let width = codes.iter().map(String::len).max().unwrap_or(0);
+    let row = |(code, source): (String, &Source)| {
+        let comment = comment(&source.name);
+        let padding = if comment.is_empty() { 0 } else { width };
+        EntryRow { code: format!("{code:padding$}"), comment }
+    };
+    codes.into_iter().zip(&layout.sources).map(row).collect()
 }
 
 /// A comment behind something, with the blanks and slashes that it needs.
