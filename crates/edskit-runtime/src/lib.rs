@@ -53,3 +53,6 @@ pub use pdo::{Mapped, NotSent, Rpdo, Tpdo};
 pub use sdo::SdoServer;
 pub use storage::{NoStorage, Record, Storage, StorageError};
 pub use time::{Instant, Microseconds};
+
+#[cfg(test)]
+mod tests;
