@@ -6,7 +6,7 @@ use crate::pdos::{self, DescribedPdo};
 use crate::profile::{Applied, Prescribed, Prescription, Profile};
 use crate::rules::cob_id::JudgedCobId;
 use crate::{FileKind, Finding, Label, Neighbours, Rule};
-use core::cell::OnceCell;
+use core::cell::{OnceCell, RefCell};
 use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
@@ -30,6 +30,8 @@ pub struct Context<'a> {
     pdos: OnceCell<Vec<DescribedPdo<'a>>>,
     /// The COB-IDs, once a rule has asked for them.
     cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
+    /// Rules that have said once for the whole file what they find.
+    said: RefCell<Vec<&'static Rule>>,
 }
 
 impl<'a> Context<'a> {
@@ -45,6 +47,7 @@ impl<'a> Context<'a> {
             odd_lines: OnceCell::new(),
             pdos: OnceCell::new(),
             cob_ids: OnceCell::new(),
+            said: RefCell::default(),
         }
     }
 
@@ -77,6 +80,16 @@ impl<'a> Context<'a> {
     /// The COB-IDs of messages besides SYNC and the default SDO channel, judged once for all rules.
     pub(crate) fn cob_ids(&self) -> &[JudgedCobId<'a>] {
         self.cob_ids.get_or_init(|| JudgedCobId::all(self))
+    }
+
+    /// Whether a rule asks this for the first time: for checks of single variables that report once for the file.
+    pub(crate) fn is_first(&self, rule: &'static Rule) -> bool {
+        let mut said = self.said.borrow_mut();
+        let is_first = !said.contains(&rule);
+        if is_first {
+            said.push(rule);
+        }
+        is_first
     }
 
     /// The text.
@@ -269,6 +282,7 @@ impl Report {
             labels: vec![Label { span, text: String::new() }],
             help: None,
             fix: None,
+            omitted: 0,
         };
         if self.counts.len() <= self.slot {
             self.counts.resize(self.slot + 1, Count::default());
@@ -287,9 +301,9 @@ impl Report {
     pub(crate) fn into_findings(mut self) -> Vec<Finding> {
         for count in self.counts {
             if let Some(more) = count.reported.checked_sub(MOST_FINDINGS).filter(|&more| more > 0) {
-                self.findings[count.last]
-                    .message
-                    .push_str(&format!("; {more} more findings of this rule are left out"));
+                let last = &mut self.findings[count.last];
+                last.omitted = more;
+                last.message.push_str(&format!("; {more} more findings of this rule are left out"));
             }
         }
         self.findings

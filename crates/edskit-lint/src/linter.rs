@@ -2,6 +2,7 @@
 
 use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
+use crate::rules::syntax::line_without_equals;
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
 use crate::suppression;
 use crate::{Check, FileKind, Finding, Neighbours, Profile, RuleSet};
@@ -91,6 +92,7 @@ impl Linter {
             walk(context, &self.checks(context.kind), &mut report);
         }
         let mut findings = report.into_findings();
+        line_without_equals::take_over_lost_headers(context, &mut findings);
         for label in findings.iter_mut().flat_map(|finding| &mut finding.labels) {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);

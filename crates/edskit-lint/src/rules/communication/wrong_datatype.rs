@@ -10,7 +10,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports a data type that differs from what CiA 301, the device profile named by 1000h, or a profile given with
-    /// `--profile` prescribes. Outside the communication area it is a warning. Sub-index 00h is left to OBJ013, and an
+    /// `--profile` prescribes. Where it is not CiA 301 that says so it is a warning. Sub-index 00h is left to OBJ013, and an
     /// index that is no data type at all to VAL001.
     ///
     /// ## Why is this bad
@@ -48,6 +48,9 @@ rule! {
     }
 }
 
+/// The one profile that every CANopen device follows.
+const CIA_301: &str = "CiA 301";
+
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     if variable.prescriptions.is_empty() {
         return;
@@ -72,7 +75,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         );
         let finding = report.add(field.span(), message);
         finding.help(format!("write `DataType=0x{:04X}`", types[0]));
-        if !(0x1000..0x2000).contains(&variable.index.0) {
+        if prescribed.profile.name != CIA_301 {
             finding.severity(Severity::Warning);
         }
         return;

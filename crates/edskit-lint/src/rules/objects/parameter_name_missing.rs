@@ -1,3 +1,4 @@
+use super::structure::is_under_value;
 use crate::rule::rule;
 use crate::{Context, Report, Severity, Variable};
 use edskit_model::KeyName;
@@ -44,9 +45,12 @@ rule! {
     }
 }
 
-fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
+fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let description = variable.description;
     if description.parameter_name().is_some() || variable.code == Some(ObjectCode::Null) {
+        return;
+    }
+    if is_under_value(context, variable) {
         return;
     }
     let help = "write a name that says what the value is";
@@ -65,6 +69,11 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
 mod tests {
     use super::*;
     use crate::testing::findings;
+
+    #[test]
+    fn what_must_not_be_there_needs_no_name() {
+        assert!(findings(&PARAMETER_NAME_MISSING, "[2000]\nParameterName=a\n[2000sub0]\n").is_empty());
+    }
 
     #[test]
     fn empty_is_less_bad_than_missing() {
