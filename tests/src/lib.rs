@@ -1,5 +1,6 @@
 //! Helpers of the tests of what crosses crates: where the files are, and hostile ones.
 
+pub mod field_report;
 pub mod hostile;
 
 use std::ffi::OsStr;

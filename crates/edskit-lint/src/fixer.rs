@@ -18,8 +18,10 @@ pub struct Fixed {
     pub findings: Vec<Finding>,
     /// How many fixes were applied.
     pub applied: usize,
-    /// Whether every fix that was allowed could be applied; false where one would have made the file worse, could not
-    /// be written in the encoding of the file, or came back again and again.
+    /// How many fixes were sure enough and yet left out: they would have made the file worse, or cannot be written in
+    /// its encoding.
+    pub refused: usize,
+    /// Whether nothing is left to do; false where two rules want the opposite of each other again and again.
     pub converged: bool,
 }
 
@@ -73,8 +75,9 @@ pub fn fix_with(sheet: Datasheet, least: Applicability, lint: impl Fn(&Datasheet
     if let Some((before, count)) = best.filter(|_| idle_rounds == MOST_IDLE_ROUNDS) {
         (state, applied) = (before, count);
     }
-    let converged = wanted(&state, least).next().is_none();
-    Fixed { sheet: state.sheet, findings: state.findings, applied, converged }
+    let refused = wanted(&state, least).count();
+    let converged = idle_rounds < MOST_IDLE_ROUNDS;
+    Fixed { sheet: state.sheet, findings: state.findings, applied, refused, converged }
 }
 
 /// A file and what is found in it.
@@ -293,10 +296,10 @@ mod tests {
         }
     }
 
-    fn run_words(text: &str, fix: impl Fn(&str) -> Option<&'static str>) -> (String, usize, bool) {
+    fn run_words(text: &str, fix: impl Fn(&str) -> Option<&'static str>) -> (String, usize, usize) {
         let fixed = fix_with(Datasheet::parse(text.as_bytes()), Applicability::Safe, words(fix));
         let text = String::from_utf8_lossy(fixed.sheet.document().to_bytes()).into_owned();
-        (text, fixed.applied, fixed.converged)
+        (text, fixed.applied, fixed.refused)
     }
 
     #[test]
@@ -307,8 +310,8 @@ mod tests {
             _ => None,
         };
         let text = "good bad good good bad good bad";
-        assert_eq!(run_words(text, fix), (". bad . . bad . bad".to_owned(), 4, false));
-        assert_eq!(run_words("bad bad", fix), ("bad bad".to_owned(), 0, false));
+        assert_eq!(run_words(text, fix), (". bad . . bad . bad".to_owned(), 4, 3));
+        assert_eq!(run_words("bad bad", fix), ("bad bad".to_owned(), 0, 2));
     }
 
     #[test]
@@ -318,7 +321,7 @@ mod tests {
             "two" => Some("."),
             _ => None,
         };
-        assert_eq!(run_words("one two one", fix), (". . .".to_owned(), 5, true));
+        assert_eq!(run_words("one two one", fix), (". . .".to_owned(), 5, 0));
     }
 
     #[test]
@@ -329,15 +332,15 @@ mod tests {
             "good" => Some("."),
             _ => None,
         };
-        assert_eq!(run_words("good tick", fix), (". tock".to_owned(), 2, false));
+        assert_eq!(run_words("good tick", fix), (". tock".to_owned(), 2, 1));
     }
 
     #[test]
     fn more_fixes_than_findings_are_kept() {
         let count = 25 * MOST_FINDINGS + 7;
         let fix = |word: &str| (word == "good").then_some(".");
-        let (text, applied, converged) = run_words(&"good ".repeat(count), fix);
-        assert_eq!((text, applied, converged), (". ".repeat(count), count, true));
+        let (text, applied, refused) = run_words(&"good ".repeat(count), fix);
+        assert_eq!((text, applied, refused), (". ".repeat(count), count, 0));
     }
 
     #[test]
@@ -395,11 +398,11 @@ mod tests {
         };
         let run = |text: &[u8], name: &'static str| {
             let fixed = fix_with(Datasheet::parse(text), Applicability::Safe, fix(name));
-            (fixed.sheet.document().to_bytes().to_vec(), fixed.converged)
+            (fixed.sheet.document().to_bytes().to_vec(), fixed.refused)
         };
-        assert_eq!(run(b"a \xFC", "\u{3B2}"), (b"a \xFC".to_vec(), false));
-        assert_eq!(run(b"a \xFC", "\u{E4}"), (b"\xE4 \xFC".to_vec(), true));
-        assert_eq!(run(b"a b", "\u{E4}"), (b"a b".to_vec(), false));
-        assert_eq!(run("a \u{FC}".as_bytes(), "\u{3B2}"), ("\u{3B2} \u{FC}".as_bytes().to_vec(), true));
+        assert_eq!(run(b"a \xFC", "\u{3B2}"), (b"a \xFC".to_vec(), 1));
+        assert_eq!(run(b"a \xFC", "\u{E4}"), (b"\xE4 \xFC".to_vec(), 0));
+        assert_eq!(run(b"a b", "\u{E4}"), (b"a b".to_vec(), 1));
+        assert_eq!(run("a \u{FC}".as_bytes(), "\u{3B2}"), ("\u{3B2} \u{FC}".as_bytes().to_vec(), 0));
     }
 }

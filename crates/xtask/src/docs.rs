@@ -11,8 +11,20 @@ const DOCUMENTS: &[(&str, &[&str])] = &[(
     &["run", "--quiet", "--package", "edskit", "--", "explain", "--all", "--format", "markdown"],
 )];
 
+/// The report on real files, which needs them.
+const FIELD_REPORT: (&str, &[&str]) =
+    ("docs/field-report.md", &["run", "--quiet", "--package", "edskit-tests", "--bin", "field-report"]);
+
 pub(crate) fn run() -> ExitCode {
-    for (path, arguments) in DOCUMENTS {
+    write_all(DOCUMENTS)
+}
+
+pub(crate) fn run_field_report() -> ExitCode {
+    write_all(&[FIELD_REPORT])
+}
+
+fn write_all(documents: &[(&str, &[&str])]) -> ExitCode {
+    for (path, arguments) in documents {
         if let Err(error) = write(path, arguments) {
             say(format_args!("{path}: {error}"));
             return ExitCode::FAILURE;

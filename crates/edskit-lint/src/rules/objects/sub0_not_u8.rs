@@ -1,5 +1,6 @@
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
+use edskit_model::{Field, Value};
 use edskit_types::{DataType, SubIndex};
 
 rule! {
@@ -49,10 +50,15 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     }
     let name =
         variable.standard_type.map_or_else(|| field.text().into_owned(), |known| known.name().to_owned());
-    report
-        .add(field.span(), format!("sub-index 00h of {} is {name} instead of UNSIGNED8", variable.index))
-        .help("write `DataType=0x0005`")
-        .unsafe_fix("Make it UNSIGNED8", vec![Edit::replace(field.span(), "0x0005")]);
+    let finding = report
+        .add(field.span(), format!("sub-index 00h of {} is {name} instead of UNSIGNED8", variable.index));
+    finding.help("write `DataType=0x0005`");
+    let values = [variable.default_value, variable.parameter_value].into_iter().flatten();
+    // A value that is no count shows that more is wrong than the type.
+    let is_count = |value: Value<'_>| matches!(value, Value::Integer(number) if number.to::<u8>().is_some());
+    if values.filter_map(Field::known).all(is_count) {
+        finding.unsafe_fix("Make it UNSIGNED8", vec![Edit::replace(field.span(), "0x0005")]);
+    }
 }
 
 #[cfg(test)]
@@ -71,5 +77,11 @@ mod tests {
             ]
         );
         assert_eq!(fixed(&SUB0_NOT_U8, "[2000sub0]\nDataType=2\n"), "[2000sub0]\nDataType=0x0005\n");
+    }
+
+    #[test]
+    fn a_value_that_is_no_count_is_not_made_one() {
+        let text = "[2000sub0]\nDataType=7\nDefaultValue=0x96A\n";
+        assert_eq!(fixed(&SUB0_NOT_U8, text), text);
     }
 }
