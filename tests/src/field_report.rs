@@ -93,9 +93,11 @@ pub fn field_report(corpus: &[CorpusFile], judgements: &str) -> Result<String, S
             _ => line(&mut problems, format!("{}: judged twice", rule.code)),
         }
     }
-    page.push_str("\n## Rules that fire nowhere\n\nNo file of the corpus has what these look for:\n");
-    let names: Vec<String> = silent.iter().map(|rule| format!("{} {}", rule.code, rule.name)).collect();
-    line(&mut page, format!("{}.", names.join(", ")));
+    page.push_str("\n## Rules that fire nowhere\n\nNo file of the corpus has what these look for. The project's own tests show that they work.\n");
+    page.push('\n');
+    for rule in silent {
+        line(&mut page, format!("- {} {}", rule.code, rule.name));
+    }
     let known = |judged: &&Judged| all.enabled().any(|rule| rule.code == judged.rule);
     for judged in judgements.judged.iter().filter(|judged| !known(judged)) {
         line(&mut problems, format!("{}: no such rule", judged.rule));
@@ -159,12 +161,16 @@ fn chapter(page: &mut String, rule: &Rule, found: &[&Found<'_>], judged: &Judged
         .filter(|(_, tally)| tally.findings > 0)
         .map(|(severity, tally)| {
             let (findings, files) = (tally.findings, tally.files.len());
-            format!("{} in {}", counted(findings, severity.name()), counted(files, "file"))
+            let findings = match severity {
+                Severity::Info => format!("{findings} info"),
+                _ => counted(findings, severity.name()),
+            };
+            format!("{findings} in {}", counted(files, "file"))
         })
         .collect();
     let off = if rule.enabled { "" } else { " Off by default." };
     line(page, format!("\n### {code} {name}\n\n{}.{off}", parts.join(", ")));
-    line(page, format!("\n`{}`, line {}: {}", judged.file, judged.line, judged.judgement.trim()));
+    line(page, format!("\n`{}`, line {}:\n{}", judged.file, judged.line, judged.judgement.trim()));
 }
 
 fn tally<'a>(found: impl Iterator<Item = &'a Found<'a>>) -> Tally<'a> {

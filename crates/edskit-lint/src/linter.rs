@@ -187,6 +187,23 @@ mod tests {
     }
 
     #[test]
+    fn a_value_that_swallowed_a_header_is_one_defect() {
+        let codes = |text: &str| {
+            let mut rules = RuleSet::none();
+            for rule in ["SYN008", "OBJ002", "OBJ005", "OBJ022", "DEV003", "LST001"] {
+                rules.select(rule).unwrap();
+            }
+            let findings = Linter::new(rules).lint(&Datasheet::parse(text.as_bytes()), FileKind::Eds, None);
+            findings.iter().map(|finding| finding.rule.code).collect::<Vec<_>>()
+        };
+        for entry in ["ObjectType=7", "AccessType=ro", "PDOMapping=0"] {
+            assert_eq!(codes(&format!("[1000]\n{entry}[1001]\nParameterName=a\n")), ["LST001", "SYN008"]);
+        }
+        assert_eq!(codes("[DeviceInfo]\nLSS_Supported=0[1000]\nParameterName=a\n"), ["LST001", "SYN008"]);
+        assert_eq!(codes("50[DeviceInfo]\nVendorName=a\n"), ["LST001", "SYN008"]);
+    }
+
+    #[test]
     fn of_one_rule_only_so_many_findings_are_kept_and_the_last_says_so() {
         let sheet = Datasheet::parse("[1000]\n".repeat(MOST_FINDINGS + 8).as_bytes());
         let linter = Linter::new(RuleSet::only(&find("duplicate-section").unwrap()));

@@ -82,9 +82,17 @@ pub(crate) fn take_over_lost_headers(context: &Context<'_>, findings: &mut Vec<F
         finding.rule == &LINE_WITHOUT_EQUALS && finding.span().slice(context.source()).starts_with(b"[")
     };
     let lines: HashSet<usize> = findings.iter().filter(is_lost).map(line).collect();
-    if !lines.is_empty() {
-        findings.retain(|finding| finding.rule == &LINE_WITHOUT_EQUALS || !lines.contains(&line(finding)));
+    if lines.is_empty() {
+        return;
     }
+    // What is missing in the file as a whole is told at the start of its first line, which may be such a line.
+    let is_in_value = |finding: &Finding| {
+        let start = finding.span().start;
+        start > context.document().lines()[context.document().line_at(start)].trimmed(context.source()).start
+    };
+    findings.retain(|finding| {
+        finding.rule == &LINE_WITHOUT_EQUALS || !lines.contains(&line(finding)) || !is_in_value(finding)
+    });
 }
 
 fn other(
