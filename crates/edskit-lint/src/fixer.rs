@@ -9,6 +9,9 @@ use std::mem;
 /// them: two rules want the opposite of each other. Real files need two or three rounds in all.
 const MOST_IDLE_ROUNDS: usize = 10;
 
+/// The search for the fixes to blame may lint a file so often. Real files need a dozen times; this is for hostile ones.
+const MOST_TRIALS: usize = 500;
+
 /// A file after its fixes.
 #[derive(Debug)]
 pub struct Fixed {
@@ -49,7 +52,7 @@ pub fn fix_with(sheet: Datasheet, least: Applicability, lint: impl Fn(&Datasheet
         let findings = lint(&sheet);
         State { sheet, findings }
     };
-    let (mut refused, mut applied) = (Vec::new(), 0);
+    let (mut refused, mut applied, mut trials) = (Vec::new(), 0, MOST_TRIALS);
     // What was there before the rounds that improved nothing, and how many these are.
     let (mut best, mut idle_rounds) = (None, 0);
     while idle_rounds < MOST_IDLE_ROUNDS {
@@ -57,8 +60,9 @@ pub fn fix_with(sheet: Datasheet, least: Applicability, lint: impl Fn(&Datasheet
         if chosen.is_empty() {
             break;
         }
-        let mut round = Round { before: &state, accepted: Vec::new(), after: None, lint: &lint };
+        let mut round = Round { before: &state, accepted: Vec::new(), after: None, trials, lint: &lint };
         let blamed: Vec<Fix> = round.try_all(&chosen).into_iter().cloned().collect();
+        trials = round.trials;
         let accepted: Vec<Fix> = round.accepted.into_iter().cloned().collect();
         refused.extend(blamed);
         let Some(after) = round.after else { continue };
@@ -119,12 +123,14 @@ struct Round<'a, L> {
     accepted: Vec<&'a Fix>,
     /// The file with these, once there is one.
     after: Option<State>,
+    /// How often the search may still lint.
+    trials: usize,
     lint: &'a L,
 }
 
 impl<'a, L: Fn(Vec<u8>) -> State> Round<'a, L> {
     /// Accepts all of these if they do no harm besides those that are accepted, else halves them until the fixes to
-    /// blame are found, which it returns.
+    /// blame are found, which it returns. Where there is no time left for this, it blames them all.
     fn try_all(&mut self, fixes: &[&'a Fix]) -> Vec<&'a Fix> {
         let together: Vec<&Fix> = self.accepted.iter().chain(fixes).copied().collect();
         let after = (self.lint)(apply(&self.before.sheet, &together));
@@ -139,9 +145,10 @@ impl<'a, L: Fn(Vec<u8>) -> State> Round<'a, L> {
             self.after = Some(after);
             return Vec::new();
         }
-        if let [bad] = fixes {
-            return vec![bad];
+        if fixes.len() == 1 || self.trials < 2 {
+            return fixes.to_vec();
         }
+        self.trials -= 2;
         let (left, right) = fixes.split_at(fixes.len() / 2);
         let mut blamed = self.try_all(left);
         blamed.extend(self.try_all(right));
@@ -240,6 +247,7 @@ fn with_endings(text: &str, ending: LineEnding) -> String {
 mod tests {
     use super::*;
     use crate::{MOST_FINDINGS, Report, RuleSet, find};
+    use std::cell::Cell;
 
     fn run(text: &[u8], rules: &[&str], least: Applicability) -> (String, usize, bool) {
         let mut set = RuleSet::none();
@@ -333,6 +341,20 @@ mod tests {
             _ => None,
         };
         assert_eq!(run_words("good tick", fix), (". tock".to_owned(), 2, 1));
+    }
+
+    #[test]
+    fn the_search_for_bad_fixes_ends() {
+        let lints = Cell::new(0);
+        let fix = |word: &str| (word == "bad").then_some("bad worse");
+        let lint = words(fix);
+        let text = "bad ".repeat(MOST_FINDINGS);
+        let fixed = fix_with(Datasheet::parse(text.as_bytes()), Applicability::Safe, |sheet| {
+            lints.set(lints.get() + 1);
+            lint(sheet)
+        });
+        assert_eq!((fixed.applied, fixed.refused, fixed.converged), (0, MOST_FINDINGS, true));
+        assert!(lints.get() <= MOST_TRIALS + 3, "{}", lints.get());
     }
 
     #[test]
