@@ -8,17 +8,19 @@ read -r -a paths <<<"${EDSKIT_PATHS:-.}"
 read -r -a arguments <<<"${EDSKIT_ARGUMENTS:-}"
 options=(--fail-on "${EDSKIT_FAIL_ON:-warning}" "${arguments[@]}")
 
-if [ -n "${EDSKIT_SARIF:-}" ]; then
-  # The exit code of this run is that of the next one, which everybody sees.
-  edskit lint --format sarif --output "$EDSKIT_SARIF" "${options[@]}" "${paths[@]}" 2>/dev/null
-fi
 edskit lint --format github "${options[@]}" "${paths[@]}"
 code=$?
-if [ -n "${GITHUB_STEP_SUMMARY:-}" ]; then
-  {
-    printf '### edskit lint\n\n```text\n'
-    edskit lint --statistics "${options[@]}" "${paths[@]}" 2>&1
-    printf '```\n'
-  } >>"$GITHUB_STEP_SUMMARY"
+
+# The other two outputs hold the same findings, so their exit codes say nothing new but that one could not be written.
+if [[ -n "${EDSKIT_SARIF:-}" ]]; then
+    edskit lint --quiet --format sarif --output "$EDSKIT_SARIF" "${options[@]}" "${paths[@]}"
+    (($? == 2)) && code=2
+fi
+if [[ -n "${GITHUB_STEP_SUMMARY:-}" ]]; then
+    {
+        printf '### edskit lint\n\n```text\n'
+        edskit lint --statistics "${options[@]}" "${paths[@]}" 2>&1
+        printf '```\n'
+    } >>"$GITHUB_STEP_SUMMARY"
 fi
 exit "$code"

@@ -1,48 +1,15 @@
 //! `edskit config check`: what it says to each file of `fixtures/gateway/`, and its page of documentation.
 
-use edskit::{Exit, Streams};
+use edskit::Exit;
 use edskit_devices::gateway::{Owner, Parameter, parameters};
+use edskit_tests::{Output, edskit_with_input};
 use serde_json::Value;
-use std::ffi::OsString;
-use std::io::{self, Write};
-use std::sync::{Arc, Mutex};
 
 const DEVICE: &str = "device = \"heinzmann-canopen-gateway\"\n";
 
-/// What a command printed, and how it ended.
-struct Output {
-    exit: Exit,
-    stdout: String,
-    stderr: String,
-}
-
-#[derive(Clone, Default)]
-struct Buffer(Arc<Mutex<Vec<u8>>>);
-
-impl Buffer {
-    fn text(&self) -> String {
-        let bytes = self.0.lock().expect("nobody panicked over it").clone();
-        String::from_utf8(bytes).expect("the command line prints UTF-8")
-    }
-}
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.lock().expect("nobody panicked over it").write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 /// Runs `edskit config check` in the folder `tests/`.
 fn check(arguments: &[&str], input: &[u8]) -> Output {
-    let (stdout, stderr) = (Buffer::default(), Buffer::default());
-    let mut streams = Streams::of_buffers(input.to_vec(), Box::new(stdout.clone()), Box::new(stderr.clone()));
-    let arguments = ["edskit", "config", "check"].iter().chain(arguments).map(OsString::from);
-    let exit = edskit::run(arguments, &mut streams);
-    Output { exit, stdout: stdout.text(), stderr: stderr.text() }
+    edskit_with_input(&[&["config", "check"], arguments].concat(), input)
 }
 
 /// The findings as `code line:column`, and the whole answer.

@@ -18,7 +18,7 @@ use Libraries::{Any, Only};
 const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-types", &[], Only(&[])),
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
-    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde", "toml"])),
+    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["memchr", "serde", "toml"])),
     ("edskit-devices", &["edskit-types"], Only(&[])),
     ("edskit", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices"], Any),
     ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices", "edskit"], Any),

@@ -81,11 +81,13 @@ pub enum Stage {
     Datasheet,
     /// To the findings of the rules that are on by default.
     Lint,
+    /// To the findings of all rules.
+    LintAll,
 }
 
 impl Stage {
     /// Every stage in order.
-    pub const ALL: [Self; 4] = [Self::IniCore, Self::Document, Self::Datasheet, Self::Lint];
+    pub const ALL: [Self; 5] = [Self::IniCore, Self::Document, Self::Datasheet, Self::Lint, Self::LintAll];
 
     /// Its name in results.
     pub fn name(self) -> &'static str {
@@ -94,12 +96,14 @@ impl Stage {
             Self::Document => "document",
             Self::Datasheet => "datasheet",
             Self::Lint => "lint",
+            Self::LintAll => "lint, all rules",
         }
     }
 
     /// Takes all files of `input` through the stage, one after the other.
     pub fn run(self, input: &Input) {
-        let linter = Linter::new(RuleSet::default());
+        let rules = if self == Self::LintAll { RuleSet::all() } else { RuleSet::default() };
+        let linter = Linter::new(rules);
         for file in &input.files {
             match self {
                 Self::IniCore => ini_core::Parser::new(&file.text).for_each(|item| {
@@ -111,7 +115,7 @@ impl Stage {
                 Self::Datasheet => {
                     black_box(Datasheet::parse(&file.bytes));
                 }
-                Self::Lint => {
+                Self::Lint | Self::LintAll => {
                     let sheet = Datasheet::parse(&file.bytes);
                     black_box(linter.lint(&sheet, FileKind::of(&file.name), Some(&file.name)));
                 }

@@ -1,7 +1,7 @@
 //! What the command line says to input that it cannot use.
 
-use super::{Folder, edskit, edskit_with_input};
 use edskit::Exit;
+use edskit_tests::{Folder, edskit, edskit_with_input};
 
 #[test]
 fn bad_options_are_explained() {

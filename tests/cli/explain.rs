@@ -1,6 +1,6 @@
 //! `edskit explain`.
 
-use super::edskit;
+use edskit_tests::edskit;
 
 #[test]
 fn one_rule() {
@@ -29,8 +29,10 @@ fn json_has_every_rule() {
 }
 
 #[test]
-fn the_page_of_the_rules_is_current() {
-    let page = edskit(&["explain", "--all", "--format", "markdown"]).stdout;
-    let written = std::fs::read_to_string("../docs/rules.md").unwrap();
-    assert!(page == written, "docs/rules.md is stale; `cargo xtask docs` writes it again");
+fn the_generated_pages_are_current() {
+    for (path, format) in [("rules.md", "markdown"), ("cross-reference.md", "cross-reference")] {
+        let page = edskit(&["explain", "--all", "--format", format]).stdout;
+        let written = std::fs::read_to_string(format!("../docs/{path}")).unwrap();
+        assert!(page == written, "docs/{path} is stale; `cargo xtask docs` writes it again");
+    }
 }

@@ -1,7 +1,7 @@
 //! `edskit lint --fix`, `--unsafe-fixes`, `--diff`.
 
-use super::{Folder, edskit, edskit_with_input};
 use edskit::Exit;
+use edskit_tests::{Folder, edskit, edskit_with_input};
 
 const TEXT: &str = "[2000]\r\nParameterName=M\u{fc}ller\r\nAccessType=RW\r\nDataType =0x0005\r\n[2000sub0]\r\nDataType=0x0007\r\n";
 

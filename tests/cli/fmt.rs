@@ -1,7 +1,7 @@
 //! `edskit fmt`.
 
-use super::{Folder, edskit, edskit_with_input};
 use edskit::Exit;
+use edskit_tests::{Folder, edskit, edskit_with_input};
 
 const MESSY: &str = "[deviceinfo]\r\nvendorname = Acme \r\n[FileInfo]\r\nFileName=a.eds\r\n; about the type\r\n[1000]\r\nAccessType=RO\r\nDataType=0x7\r\nParameterName=Type\r\n";
 

@@ -1,7 +1,7 @@
 //! Help, completions, manual page.
 
-use super::edskit;
 use edskit::Exit;
+use edskit_tests::edskit;
 
 #[test]
 fn help_texts() {

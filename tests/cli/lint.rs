@@ -1,7 +1,7 @@
 //! `edskit lint`: formats, selection, exit codes.
 
-use super::{Folder, edskit, edskit_with_input};
 use edskit::Exit;
+use edskit_tests::{Folder, edskit, edskit_with_input};
 
 /// The gateway's data sheet as its manual prints it.
 const PUBLISHED: &str = "fixtures/CANopenGateway.published.eds";

@@ -1,6 +1,6 @@
 //! Checks across files: a nodelist with its DCFs, a DCF with the files that it downloads.
 
-use super::{Folder, edskit, edskit_with_input};
+use edskit_tests::{Folder, edskit, edskit_with_input};
 
 const NODE_LIST: &str = "[Topology]\nNetName=Line\nNodes=0x02\nNode1Present=0x01\nNode1DCFName=PANEL.DCF\nNode5Present=0x01\nNode5DCFName=drive.dcf\nEDSBaseName=config\n";
 

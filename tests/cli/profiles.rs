@@ -1,7 +1,7 @@
 //! Profiles of one's own.
 
-use super::{Folder, edskit};
 use edskit::Exit;
+use edskit_tests::{Folder, edskit};
 use std::fs;
 
 const FILE: &str = "[1000]\nDataType=7\nDefaultValue=0\n[2100]\nDataType=6\n";

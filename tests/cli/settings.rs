@@ -1,7 +1,7 @@
 //! `edskit.toml`, suppressions in files, baselines.
 
-use super::{Folder, edskit};
 use edskit::Exit;
+use edskit_tests::{Folder, edskit};
 
 const BAD: &str = "[2000]\n[2000]\n[2000sub0]\nDataType=0x0007\n";
 

@@ -1,6 +1,6 @@
 //! `edskit show`.
 
-use super::{edskit, edskit_with_input};
+use edskit_tests::{edskit, edskit_with_input};
 
 const GATEWAY: &str = "../eds/CANopenGateway.eds";
 const DRIVE: &str = "fixtures/drive.dcf";

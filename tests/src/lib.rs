@@ -1,7 +1,13 @@
-//! Helpers of the tests of what crosses crates: where the files are, and hostile ones.
+//! Helpers of the tests of what crosses crates: where the files are, hostile ones, and the command line.
 
+mod command;
 pub mod field_report;
+mod folder;
 pub mod hostile;
+pub mod picture;
+
+pub use command::{Output, edskit, edskit_with_input};
+pub use folder::Folder;
 
 use std::ffi::OsStr;
 use std::io::Write;

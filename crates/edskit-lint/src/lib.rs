@@ -19,6 +19,7 @@ mod missing;
 mod neighbours;
 mod odd_lines;
 mod pdos;
+mod peers;
 mod profile;
 mod rule;
 mod rule_set;
@@ -34,6 +35,7 @@ pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
 pub use neighbours::Neighbours;
+pub use peers::{PEER_FINDINGS, Peer, PeerFinding};
 pub use profile::{Profile, ProfileError};
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck, NODE_LISTS,

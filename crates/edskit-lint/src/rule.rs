@@ -1,6 +1,6 @@
 //! What a rule is, and how one is declared.
 
-use crate::{Context, Report, Severity, Variable};
+use crate::{Context, Peer, Report, Severity, Variable};
 use core::fmt;
 use edskit_model::{Entry, Line, Object, Section};
 
@@ -178,6 +178,8 @@ pub struct Rule {
     pub since: &'static str,
     /// Which files it looks at.
     pub files: FileKinds,
+    /// The findings of other tools that it covers: the tool and the [`PeerFinding::id`](crate::PeerFinding::id).
+    pub peers: &'static [(Peer, &'static str)],
     /// Documentation in Markdown, one blank before each line.
     pub(crate) raw_docs: &'static str,
     /// The check.
@@ -232,6 +234,7 @@ macro_rules! rule {
             $(enabled: $enabled:literal,)?
             since: $since:literal,
             files: $files:ident,
+            $(peers: [$($peer:ident($id:literal)),* $(,)?],)?
             check: $level:ident($check:path),
         }
     ) => {
@@ -244,6 +247,7 @@ macro_rules! rule {
             enabled: [$($enabled,)? true][0],
             since: $since,
             files: $crate::rule::$files,
+            peers: &[$($(($crate::Peer::$peer, $id)),*)?],
             raw_docs: concat!($($doc, "\n"),*),
             check: $crate::Check::$level($check),
         };

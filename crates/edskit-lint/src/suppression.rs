@@ -94,7 +94,7 @@ struct Comments {
 fn read(context: &Context<'_>) -> Comments {
     let source = context.source();
     // Almost no file has one, and this is faster than a look at every line.
-    if !contains(source, MARK.as_bytes()) {
+    if memchr::memmem::find(source, MARK.as_bytes()).is_none() {
         return Comments::default();
     }
     let lines = context.document().lines();
@@ -170,10 +170,6 @@ fn next_scope(lines: &[Line], comment: usize) -> Span {
     let behind = lines[next + 1..].iter().position(|line| line.kind() == LineKind::Section);
     let last = behind.map_or(lines.len() - 1, |offset| next + offset);
     Span::new(start, lines[last].full_span().end)
-}
-
-fn contains(text: &[u8], word: &[u8]) -> bool {
-    text.windows(word.len()).any(|window| window == word)
 }
 
 #[cfg(test)]

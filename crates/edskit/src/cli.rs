@@ -263,6 +263,8 @@ pub(crate) enum ExplainFormat {
     Human,
     /// A Markdown page with a table of the rules
     Markdown,
+    /// A Markdown page with what other tools find, and the rules that find it
+    CrossReference,
     /// JSON
     Json,
 }

@@ -1,5 +1,7 @@
 //! `edskit explain`: what the rules say of themselves.
 
+mod cross_reference;
+
 use crate::cli::{ExplainArguments, ExplainFormat};
 use crate::{Exit, Streams};
 use askama::Template;
@@ -32,6 +34,7 @@ pub(crate) fn run(arguments: &ExplainArguments, streams: &mut Streams) -> io::Re
             }
         }
         ExplainFormat::Markdown => out.write_all(markdown_page(&chosen)?.as_bytes())?,
+        ExplainFormat::CrossReference => out.write_all(cross_reference::page(&chosen)?.as_bytes())?,
         ExplainFormat::Json => {
             let explained: Vec<_> = chosen.iter().map(|rule| ExplainedRule::new(rule)).collect();
             serde_json::to_writer_pretty(&mut *out, &explained)?;
@@ -57,6 +60,8 @@ struct ExplainedRule {
     enabled: bool,
     since: &'static str,
     summary: &'static str,
+    /// The findings of other tools that it covers.
+    peers: Vec<String>,
     documentation: String,
 }
 
@@ -70,6 +75,7 @@ impl ExplainedRule {
             enabled: rule.enabled,
             since: rule.since,
             summary: rule.summary(),
+            peers: rule.peers.iter().map(|(peer, id)| format!("{} {id}", peer.name())).collect(),
             documentation: rule.docs(),
         }
     }

@@ -5,33 +5,52 @@ use crate::{root, say};
 use std::fs;
 use std::process::{ExitCode, Stdio};
 
-/// Each document with the command that prints it.
-const DOCUMENTS: &[(&str, &[&str])] = &[(
-    "docs/rules.md",
-    &["run", "--quiet", "--package", "edskit", "--", "explain", "--all", "--format", "markdown"],
-)];
+/// Each document with the format in which `edskit explain --all` prints it.
+const DOCUMENTS: &[(&str, &str)] =
+    &[("docs/rules.md", "markdown"), ("docs/cross-reference.md", "cross-reference")];
 
 /// The report on real files, which needs them.
 const FIELD_REPORT: (&str, &[&str]) =
     ("docs/field-report.md", &["run", "--quiet", "--package", "edskit-tests", "--bin", "field-report"]);
 
 pub(crate) fn run() -> ExitCode {
-    write_all(DOCUMENTS)
-}
-
-pub(crate) fn run_field_report() -> ExitCode {
-    write_all(&[FIELD_REPORT])
-}
-
-fn write_all(documents: &[(&str, &[&str])]) -> ExitCode {
-    for (path, arguments) in documents {
-        if let Err(error) = write(path, arguments) {
+    for (path, format) in DOCUMENTS {
+        let explain = ["run", "--quiet", "--package", "edskit", "--", "explain", "--all", "--format", format];
+        if let Err(error) = write(path, &explain) {
             say(format_args!("{path}: {error}"));
             return ExitCode::FAILURE;
         }
         say(format_args!("{path} is written"));
     }
-    ExitCode::SUCCESS
+    let pictures = ["run", "--quiet", "--package", "edskit-tests", "--bin", "pictures"];
+    match cargo(&pictures).status() {
+        Ok(status) if status.success() => {
+            say("docs/pictures is written");
+            ExitCode::SUCCESS
+        }
+        Ok(status) => {
+            say(format_args!("docs/pictures: {status}"));
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            say(format_args!("docs/pictures: {error}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+pub(crate) fn run_field_report() -> ExitCode {
+    let (path, arguments) = FIELD_REPORT;
+    match write(path, arguments) {
+        Ok(()) => {
+            say(format_args!("{path} is written"));
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            say(format_args!("{path}: {error}"));
+            ExitCode::FAILURE
+        }
+    }
 }
 
 fn write(path: &str, arguments: &[&str]) -> Result<(), String> {

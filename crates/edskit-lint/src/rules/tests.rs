@@ -2,7 +2,7 @@
 
 use super::ALL;
 use crate::testing::{Folder, findings_among, findings_in, lint};
-use crate::{Rule, find};
+use crate::{PEER_FINDINGS, Rule, find};
 use edskit_model::Datasheet;
 use std::collections::HashSet;
 
@@ -130,4 +130,24 @@ fn unescape(text: &str) -> Vec<u8> {
         rest = after;
     }
     bytes
+}
+
+#[test]
+fn every_finding_of_another_tool_has_a_rule_or_a_reason_and_no_rule_names_one_that_is_not_listed() {
+    let mut listed = HashSet::new();
+    for finding in PEER_FINDINGS {
+        let place = (finding.peer, finding.id);
+        assert!(listed.insert(place), "{place:?} is listed twice");
+        let is_covered = ALL.iter().any(|rule| rule.peers.contains(&place));
+        assert_ne!(
+            is_covered,
+            finding.reason.is_some(),
+            "{place:?} needs a rule, or a reason why there is none"
+        );
+    }
+    for rule in ALL.iter() {
+        for place in rule.peers {
+            assert!(listed.contains(place), "{rule:?} names {place:?}, which is not listed");
+        }
+    }
 }

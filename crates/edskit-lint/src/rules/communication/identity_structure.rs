@@ -55,6 +55,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("38, 39")],
         check: Object(check),
     }
 }

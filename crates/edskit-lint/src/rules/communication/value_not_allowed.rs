@@ -44,6 +44,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("29")],
         check: Variable(check),
     }
 }

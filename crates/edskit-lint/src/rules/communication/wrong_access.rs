@@ -44,6 +44,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("30")],
         check: Variable(check),
     }
 }

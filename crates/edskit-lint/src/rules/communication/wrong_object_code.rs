@@ -42,6 +42,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("30"), CanChkEds("31")],
         check: Variable(check),
     }
 }

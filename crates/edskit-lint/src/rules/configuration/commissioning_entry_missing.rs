@@ -44,6 +44,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("MND002"), EdsDcfCheck("DCF001")],
         check: File(check),
     }
 }

@@ -55,6 +55,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [Dcfchk("LSS_SerialNumber differs")],
         check: File(check),
     }
 }

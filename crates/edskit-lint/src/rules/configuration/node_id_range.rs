@@ -33,6 +33,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("DCF002"), EdsDcfCheck("LIB003"), Dcfchk("invalid node-ID specified")],
         check: File(check),
     }
 }

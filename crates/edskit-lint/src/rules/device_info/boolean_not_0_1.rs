@@ -34,6 +34,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("29"), EdsDcfCheck("MND003"), Dcfchk("invalid value for")],
         check: File(check),
     }
 }

@@ -41,6 +41,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("DynamicChannels unsupported")],
         check: File(check),
     }
 }

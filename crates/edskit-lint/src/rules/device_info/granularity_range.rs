@@ -32,6 +32,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("MND003")],
         check: File(check),
     }
 }

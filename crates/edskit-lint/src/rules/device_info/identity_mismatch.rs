@@ -47,6 +47,10 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("130"), EdsDcfCheck("MND005"), Dcfchk("VendorNumber differs"),
+            Dcfchk("ProductNumber differs"), Dcfchk("RevisionNumber differs"),
+        ],
         check: File(check),
     }
 }

@@ -39,6 +39,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("MND004")],
         check: File(check),
     }
 }

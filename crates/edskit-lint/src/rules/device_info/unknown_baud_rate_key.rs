@@ -36,6 +36,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("24")],
         check: File(check),
     }
 }

@@ -35,6 +35,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("41"), EdsDcfCheck("MND003")],
         check: File(check),
     }
 }

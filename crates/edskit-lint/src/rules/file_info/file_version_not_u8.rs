@@ -34,6 +34,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("MND003")],
         check: File(check),
     }
 }

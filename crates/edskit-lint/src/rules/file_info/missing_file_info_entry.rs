@@ -50,6 +50,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("26"), CanChkEds("recommended key missing"), EdsDcfCheck("MND002")],
         check: File(check),
     }
 }

@@ -42,6 +42,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("LST006"), Dcfchk("invalid object index for entry")],
         check: File(check),
     }
 }

@@ -48,6 +48,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("28"), Dcfchk("object is not mandatory")],
         check: File(check),
     }
 }

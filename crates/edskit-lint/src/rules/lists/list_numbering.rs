@@ -40,6 +40,10 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("5"), CanChkEds("enumeration gap"), EdsDcfCheck("LST006"), Dcfchk("invalid entry in"),
+            Dcfchk("entry missing in"),
+        ],
         check: File(check),
     }
 }

@@ -62,6 +62,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("1"), EdsDcfCheck("MND001")],
         check: File(check),
     }
 }

@@ -41,6 +41,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("37"), EdsDcfCheck("LST004")],
         check: File(check),
     }
 }

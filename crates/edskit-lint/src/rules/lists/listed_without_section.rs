@@ -46,6 +46,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("LST002"), Dcfchk("object not found")],
         check: File(check),
     }
 }

@@ -57,6 +57,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("9"), EdsDcfCheck("LST005")],
         check: File(check),
     }
 }

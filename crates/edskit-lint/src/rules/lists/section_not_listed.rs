@@ -53,6 +53,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("unused section"), EdsDcfCheck("LST003")],
         check: File(check),
     }
 }

@@ -41,6 +41,10 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("5"), EdsDcfCheck("LST001"), EdsDcfCheck("LIB001"),
+            Dcfchk("SupportedObjects entry missing"), Dcfchk("too many entries in"),
+        ],
         check: File(check),
     }
 }

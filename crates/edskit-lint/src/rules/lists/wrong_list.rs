@@ -48,6 +48,10 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("28"), EdsDcfCheck("LST005"), EdsDcfCheck("LST007"),
+            Dcfchk("object is manufacturer-specific"), Dcfchk("object is not manufacturer-specific"),
+        ],
         check: File(check),
     }
 }

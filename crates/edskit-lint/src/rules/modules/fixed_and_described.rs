@@ -48,6 +48,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("10")],
         check: File(check),
     }
 }

@@ -43,6 +43,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("51-55")],
         check: File(check),
     }
 }

@@ -54,6 +54,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("51-55")],
         check: File(check),
     }
 }

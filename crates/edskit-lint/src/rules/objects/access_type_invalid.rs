@@ -41,6 +41,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("29"), EdsDcfCheck("OBJ005"), EdsDcfCheck("LIB001"), Dcfchk("invalid AccessType")],
         check: Variable(check),
     }
 }

@@ -39,6 +39,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("26"), EdsDcfCheck("OBJ005"), Dcfchk("AccessType not specified")],
         check: Variable(check),
     }
 }

@@ -46,6 +46,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("OBJ006"), Dcfchk("SubNumber and CompactSubObj specified")],
         check: Object(check),
     }
 }

@@ -57,6 +57,11 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("40"), Dcfchk("invalid entry in"), Dcfchk("too many entries in"),
+            Dcfchk("too few entries in"), Dcfchk("object not defined"), Dcfchk("invalid sub-index"),
+            Dcfchk("object does not support compact storage"), Dcfchk("NrOfEntries entry missing"),
+        ],
         check: File(check),
     }
 }

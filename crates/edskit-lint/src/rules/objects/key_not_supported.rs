@@ -46,6 +46,10 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("27"), EdsDcfCheck("OBJ006"), EdsDcfCheck("LIB001"),
+            Dcfchk("AccessType not supported"), Dcfchk("ObjectType should be 0x08 or 0x09"),
+        ],
         check: Variable(check),
     }
 }

@@ -38,6 +38,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("LIB001")],
         check: Variable(check),
     }
 }

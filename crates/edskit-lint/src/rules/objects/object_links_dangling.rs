@@ -58,6 +58,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("7"), CanChkEds("13")],
         check: File(check),
     }
 }

@@ -47,6 +47,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("OBJ008"), Dcfchk("object not defined")],
         check: File(check),
     }
 }

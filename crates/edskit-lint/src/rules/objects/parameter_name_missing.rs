@@ -41,6 +41,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("26"), EdsDcfCheck("OBJ010"), Dcfchk("ParameterName not specified")],
         check: Variable(check),
     }
 }

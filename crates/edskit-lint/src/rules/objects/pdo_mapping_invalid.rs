@@ -38,6 +38,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("29"), EdsDcfCheck("OBJ009"), Dcfchk("invalid value for")],
         check: Variable(check),
     }
 }

@@ -45,6 +45,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("66")],
         check: Variable(check),
     }
 }

@@ -57,6 +57,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("14"), EdsDcfCheck("OBJ007")],
         check: Object(check),
     }
 }

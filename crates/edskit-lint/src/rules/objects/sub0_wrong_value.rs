@@ -70,6 +70,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("36"), CanChkEds("sub-index 00h"), EdsDcfCheck("OBJ007")],
         check: Object(check),
     }
 }

@@ -50,6 +50,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [Dcfchk("invalid sub-index")],
         check: File(check),
     }
 }

@@ -54,6 +54,10 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("6"), CanChkEds("33, 34"), CanChkEds("redundant sub-object"), EdsDcfCheck("OBJ006"),
+            Dcfchk("missing sub-object(s)"), Dcfchk("extra sub-object(s)"),
+        ],
         check: Object(check),
     }
 }

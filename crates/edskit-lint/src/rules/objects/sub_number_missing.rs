@@ -51,6 +51,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("26"), EdsDcfCheck("OBJ006")],
         check: Object(check),
     }
 }

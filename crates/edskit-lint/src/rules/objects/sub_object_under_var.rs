@@ -54,6 +54,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [Dcfchk("ObjectType should be 0x08 or 0x09")],
         check: Object(check),
     }
 }

@@ -38,6 +38,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("CompactPDO")],
         check: File(check),
     }
 }

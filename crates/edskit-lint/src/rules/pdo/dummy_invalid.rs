@@ -56,6 +56,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("74"), EdsDcfCheck("PDO001")],
         check: File(check),
     }
 }

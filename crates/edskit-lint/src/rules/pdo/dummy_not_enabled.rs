@@ -62,6 +62,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("PDO001")],
         check: File(check),
     }
 }

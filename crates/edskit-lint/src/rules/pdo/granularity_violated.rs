@@ -72,6 +72,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("69, 70, 75, 76")],
         check: File(check),
     }
 }

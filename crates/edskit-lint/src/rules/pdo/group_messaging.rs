@@ -54,6 +54,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("73")],
         check: File(check),
     }
 }

@@ -42,6 +42,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("63")],
         check: File(check),
     }
 }

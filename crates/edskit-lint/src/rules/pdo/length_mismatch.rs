@@ -63,6 +63,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("65"), EdsDcfCheck("PDO003")],
         check: File(check),
     }
 }

@@ -40,6 +40,7 @@ rule! {
         enabled: false,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("mappable without direction")],
         check: Variable(check),
     }
 }

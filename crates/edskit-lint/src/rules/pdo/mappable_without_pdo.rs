@@ -50,6 +50,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("61")],
         check: File(check),
     }
 }

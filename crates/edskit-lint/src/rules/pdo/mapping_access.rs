@@ -56,6 +56,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("67, 68")],
         check: File(check),
     }
 }

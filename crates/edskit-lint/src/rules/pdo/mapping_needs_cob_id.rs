@@ -70,6 +70,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("COB-ID const")],
         check: File(check),
     }
 }

@@ -65,6 +65,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("64"), EdsDcfCheck("PDO004")],
         check: File(check),
     }
 }

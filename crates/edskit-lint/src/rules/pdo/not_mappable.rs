@@ -66,6 +66,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("35"), EdsDcfCheck("PDO002")],
         check: File(check),
     }
 }

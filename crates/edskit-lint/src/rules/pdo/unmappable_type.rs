@@ -64,6 +64,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("66")],
         check: File(check),
     }
 }

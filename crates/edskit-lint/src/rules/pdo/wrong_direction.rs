@@ -69,6 +69,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("8"), EdsDcfCheck("PDO002")],
         check: File(check),
     }
 }

@@ -61,6 +61,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("11")],
         check: File(check),
     }
 }

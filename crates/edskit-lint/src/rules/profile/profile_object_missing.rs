@@ -49,6 +49,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("9")],
         check: File(check),
     }
 }

@@ -54,6 +54,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("38, 39")],
         check: Variable(check),
     }
 }

@@ -41,6 +41,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [CanChkEds("4"), EdsDcfCheck("INI002")],
         check: File(check),
     }
 }

@@ -39,6 +39,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [EdsDcfCheck("INI004")],
         check: File(check),
     }
 }

@@ -39,6 +39,12 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [
+            CanChkEds("21"), EdsDcfCheck("OBJ002"), EdsDcfCheck("OBJ009"), EdsDcfCheck("VAL001"),
+            EdsDcfCheck("LST006"), Dcfchk("invalid value for"), Dcfchk("invalid object index for entry"),
+            Dcfchk("invalid DataType"),
+            Dcfchk("invalid DefaultValue, ParameterValue, LowLimit or HighLimit"),
+        ],
         check: File(check),
     }
 }

@@ -35,6 +35,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [CanChkEds("12"), EdsDcfCheck("OBJ011")],
         check: File(check),
     }
 }

@@ -33,6 +33,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [CanChkEds("23")],
         check: File(check),
     }
 }

@@ -42,6 +42,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [EdsDcfCheck("INI001")],
         check: File(check),
     }
 }

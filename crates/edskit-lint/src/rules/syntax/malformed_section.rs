@@ -34,6 +34,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [CanChkEds("2"), EdsDcfCheck("INI001")],
         check: File(check),
     }
 }

@@ -36,6 +36,10 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [
+            EdsDcfCheck("FRM001"), EdsDcfCheck("FRM005"),
+            Dcfchk("invalid DefaultValue, ParameterValue, LowLimit or HighLimit"),
+        ],
         check: File(check),
     }
 }

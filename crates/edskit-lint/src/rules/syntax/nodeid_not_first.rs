@@ -35,6 +35,9 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            EdsDcfCheck("FRM002"), Dcfchk("invalid DefaultValue, ParameterValue, LowLimit or HighLimit"),
+        ],
         check: File(check),
     }
 }

@@ -34,6 +34,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [EdsDcfCheck("LIB001")],
         check: File(check),
     }
 }

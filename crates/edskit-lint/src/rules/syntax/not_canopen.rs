@@ -38,6 +38,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [EdsDcfCheck("LIB002")],
         check: File(check),
     }
 }

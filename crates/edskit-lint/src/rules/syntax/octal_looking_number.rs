@@ -36,6 +36,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [CanChkEds("21"), EdsDcfCheck("VAL005")],
         check: File(check),
     }
 }

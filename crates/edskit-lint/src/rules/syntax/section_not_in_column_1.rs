@@ -36,6 +36,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [CanChkEds("3")],
         check: File(check),
     }
 }

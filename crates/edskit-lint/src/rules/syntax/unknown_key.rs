@@ -40,6 +40,10 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [
+            CanChkEds("24"), CanChkEds("unused key"), CanChkEds("reserved legacy key"),
+            Dcfchk("invalid entry in"),
+        ],
         check: File(check),
     }
 }

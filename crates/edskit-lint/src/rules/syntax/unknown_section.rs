@@ -41,6 +41,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: ALL_FILES,
+        peers: [CanChkEds("unused section"), Dcfchk("unknown section in DCF")],
         check: File(check),
     }
 }

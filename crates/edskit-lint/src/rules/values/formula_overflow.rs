@@ -38,6 +38,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("FRM004"), Dcfchk("underflow"), Dcfchk("overflow")],
         check: Variable(check),
     }
 }

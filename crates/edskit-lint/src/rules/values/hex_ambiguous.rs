@@ -41,6 +41,7 @@ rule! {
         severity: Info,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("VAL007")],
         check: Variable(check),
     }
 }

@@ -40,6 +40,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("VAL006"), Dcfchk("LowLimit not supported"), Dcfchk("HighLimit not supported")],
         check: Variable(check),
     }
 }

@@ -39,6 +39,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("FRM003")],
         check: Variable(check),
     }
 }

@@ -39,6 +39,7 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [EdsDcfCheck("VAL001")],
         check: Variable(check),
     }
 }

@@ -38,6 +38,7 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [CanChkEds("32"), CanChkEds("type not checkable"), EdsDcfCheck("OBJ003")],
         check: Variable(check),
     }
 }

@@ -40,6 +40,9 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            EdsDcfCheck("VAL001"), Dcfchk("invalid DefaultValue, ParameterValue, LowLimit or HighLimit"),
+        ],
         check: Variable(check),
     }
 }

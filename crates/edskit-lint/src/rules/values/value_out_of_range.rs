@@ -42,6 +42,10 @@ rule! {
         severity: Error,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("22"), EdsDcfCheck("VAL001"), EdsDcfCheck("LIB003"), Dcfchk("underflow"),
+            Dcfchk("overflow"),
+        ],
         check: Variable(check),
     }
 }

@@ -47,6 +47,10 @@ rule! {
         severity: Warning,
         since: "0.1.0",
         files: DEVICE_FILES,
+        peers: [
+            CanChkEds("22"), EdsDcfCheck("VAL003"), EdsDcfCheck("VAL004"), Dcfchk("underflow"),
+            Dcfchk("overflow"),
+        ],
         check: Variable(check),
     }
 }
