@@ -13,9 +13,10 @@ const INTRODUCTION: &str = "\
 
 What edskit finds in real files, and whether it is right. The files are EDS and DCF files of many vendors, tools and
 hobbyists from public repositories; they are not part of this project. Every rule ran over all of them. Of each rule that
-fires, one finding was looked up in its file and judged by hand; the errors were all reviewed, one of each kind.
+fires, one finding was looked up and judged by hand. Of the errors, up to three of every rule in every file were looked
+at; what was arguable among them became a warning.
 
-The numbers are those of the findings as they come out of the box. A finding that is right on the file and yet a matter of
+A finding that is right on the file and yet a matter of
 taste, of the device, or of how one reads CiA 306 is no error: an error says that two statements of the file contradict each
 other, that CiA 306 or CiA 301 forbids it, or that tools in use refuse or misread it.
 
