@@ -1,6 +1,7 @@
 //! Helpers of the tests of what crosses crates: where the files are, and hostile ones.
 
 pub mod hostile;
+pub mod seeded;
 
 use std::ffi::OsStr;
 use std::io::Write;
