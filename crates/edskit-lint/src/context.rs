@@ -5,9 +5,12 @@ use crate::odd_lines::{self, OddLine};
 use crate::pdos::{self, DescribedPdo};
 use crate::profile::{Applied, Prescribed, Prescription, Profile};
 use crate::rules::cob_id::JudgedCobId;
+use crate::rules::syntax::lost_header;
 use crate::{FileKind, Finding, Label, Neighbours, Rule};
 use core::cell::OnceCell;
-use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
+use edskit_model::{
+    Datasheet, Description, Document, Entry, Field, KeyName, Section, SectionKind, Span, Value, ValueErrorKind,
+};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
 /// The file that is linted.
@@ -30,6 +33,8 @@ pub struct Context<'a> {
     pdos: OnceCell<Vec<DescribedPdo<'a>>>,
     /// The COB-IDs, once a rule has asked for them.
     cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
+    /// The sections whose headers stand behind other text, sorted, once a rule has asked for them.
+    hidden_sections: OnceCell<Vec<SectionKind>>,
 }
 
 impl<'a> Context<'a> {
@@ -45,6 +50,7 @@ impl<'a> Context<'a> {
             odd_lines: OnceCell::new(),
             pdos: OnceCell::new(),
             cob_ids: OnceCell::new(),
+            hidden_sections: OnceCell::new(),
         }
     }
 
@@ -79,6 +85,12 @@ impl<'a> Context<'a> {
         self.cob_ids.get_or_init(|| JudgedCobId::all(self))
     }
 
+    /// The sections whose headers stand behind other text, sorted: SYN008 reports the lost line break, so that other
+    /// rules do not report its consequences.
+    pub(crate) fn hidden_sections(&self) -> &[SectionKind] {
+        self.hidden_sections.get_or_init(|| lost_header::hidden(self))
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()
@@ -96,7 +108,8 @@ impl<'a> Context<'a> {
 
     /// `PDOMapping` for mapping entries and so on may name objects that only modules bring.
     pub fn is_modular(&self) -> bool {
-        self.sheet.supported_modules().is_some()
+        let is_of_module = |section: Section<'_>| matches!(section.kind(), SectionKind::Module(..));
+        self.sheet.supported_modules().is_some() || self.sheet.other_sections().any(is_of_module)
     }
 }
 

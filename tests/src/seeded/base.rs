@@ -229,7 +229,7 @@ impl Entry {
 }
 
 /// A decimal or hexadecimal number; a formula is none.
-pub fn number(text: &str) -> Option<i64> {
+pub(super) fn number(text: &str) -> Option<i64> {
     match text.strip_prefix("0x") {
         Some(digits) => i64::from_str_radix(digits, 16).ok(),
         None => text.parse().ok(),

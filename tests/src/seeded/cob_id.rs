@@ -12,7 +12,10 @@ pub(super) fn defects() -> Vec<Defect> {
             .with_consequence("COB003", "the SDO server sends there"),
         emcy("COB001", "EMCY at a heartbeat's CAN-ID", "$NODEID+0x700")
             .with_consequence("COB003", "the heartbeat is sent there"),
-        pdo_of_eds("COB002", "a PDO with the bare base", |section| Some(format!("0x{:X}", predefined(section)?))),
+        pdo_of_eds("COB002", "a PDO with the bare base", |section| {
+            let base = predefined(section).filter(|base| *base > 0x180)?;
+            Some(format!("0x{base:X}"))
+        }),
         emcy("COB002", "EMCY with the bare base", "0x80"),
         once("COB003", "two TPDOs with one CAN-ID", |base| {
             let first = base.sub_object(0x1800, 1)?;
@@ -52,7 +55,8 @@ pub(super) fn defects() -> Vec<Defect> {
         sender("COB008", "a TPDO of two nodes with one CAN-ID", |base| {
             let id = base.sub_object(0x1800, 1)?;
             id.entry("ParameterValue")
-        }),
+        })
+        .by_label(),
     ]
 }
 
@@ -94,7 +98,8 @@ fn emcy_of_eds(rule: &'static str, kind: &'static str, new: &'static str) -> Def
 fn sender(rule: &'static str, kind: &'static str, id: fn(&Base) -> Option<&Entry>) -> Defect {
     Defect::new(rule, kind, move |base| super::node_list::with_changed_dcf(base, |dcf| {
         let entry = id(dcf)?;
-        Some(Mutant::of(dcf).set(entry, "0x40000187"))
+        let node = dcf.section("DeviceComissioning")?.number("NodeID")?;
+        Some(Mutant::of(dcf).set(entry, if node == 5 { "0x40000186" } else { "0x185" }))
     }))
 }
 
@@ -103,7 +108,7 @@ fn is_pdo_id(section: &Section) -> bool {
 }
 
 /// Whether bit 31 is not set.
-fn is_used(section: &Section) -> bool {
+pub(super) fn is_used(section: &Section) -> bool {
     let value = section.value("DefaultValue").trim_start_matches("$NODEID+");
     super::base::number(value).is_some_and(|number| number & 0x8000_0000 == 0)
 }

@@ -16,11 +16,11 @@ fn attributes() -> Vec<Defect> {
     vec![
         value("COM001", "a heartbeat time that is a DOMAIN", "ObjectType", |section| section.name == "1017", "0x2"),
         value("COM001", "an error register that is a DOMAIN", "ObjectType", |section| section.name == "1001", "0x2"),
-        value("COM002", "a device type of 16 bits", "DataType", |section| section.name == "1000", "0x0006"),
+        value("COM002", "a device type with a sign", "DataType", |section| section.name == "1000", "0x0004"),
         value("COM002", "an error register with a sign", "DataType", |section| section.name == "1001", "0x0002"),
         value("COM002", "a heartbeat time of 32 bits", "DataType", |section| section.name == "1017", "0x0007"),
         value("COM002", "a vendor-ID with a sign", "DataType", |section| section.name == "1018sub1", "0x0004"),
-        value("COM002", "a monitored heartbeat of 16 bits", "DataType", |section| section.name == "1016sub1", "0x0006"),
+        value("COM002", "a monitored heartbeat with a sign", "DataType", |section| section.name == "1016sub1", "0x0004"),
         value("COM002", "a COB-ID of a PDO with a sign", "DataType", is_pdo_cob_id, "0x0004"),
         value("COM002", "an inhibit time of 8 bits", "DataType", is_inhibit_time, "0x0005"),
         value("COM002", "a mapped object with a sign", "DataType", is_mapping_entry, "0x0004"),
@@ -45,7 +45,7 @@ fn sync() -> Vec<Defect> {
     vec![
         sync_id("COM005", "bits of an extended frame in the COB-ID of SYNC", "0x00008080"),
         sync_id("COM005", "a restricted CAN-ID for SYNC", "0x00000000"),
-        sync_id("COM005", "the CAN-ID of an SDO for SYNC", "0x00000600"),
+        sync_id("COM005", "the CAN-ID of an SDO for SYNC", "0x00000605"),
         once("COM006", "a SYNC producer without a period", |base| {
             let sync = base.entry("1005", "DefaultValue")?;
             let mutant = without_object(base, 0x1006)?.set(sync, "0x40000080");
@@ -104,7 +104,10 @@ fn emcy() -> Vec<Defect> {
 fn error_control() -> Vec<Defect> {
     vec![
         once("COM010", "neither heartbeat nor node guarding", |base| {
-            base.object(0x100C).is_none().then(|| without_object(base, 0x1017))?.map(|mutant| expect_object(mutant, base, 0x1000))
+            base.object(0x100C).is_none().then(|| without_object(base, 0x1017))?.map(|mutant| {
+                let list = base.section("OptionalObjects");
+                list.into_iter().fold(mutant, |mutant, list| mutant.expect(list.header))
+            })
         }),
         once("COM011", "a guard time without a life time factor", |base| {
             Some(expect_object(without_object(base, 0x100D)?, base, 0x100C))

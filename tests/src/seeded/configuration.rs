@@ -75,7 +75,7 @@ fn configured() -> Vec<Defect> {
     vec![
         Defect::new("DCF006", "a configured value of a constant", |base| {
             let is_constant = |section: &Section| {
-                base.kind == Kind::Dcf && section.value("AccessType") == "const" && section.number("DefaultValue").is_some()
+                base.kind == Kind::Dcf && section.is_variable() && section.value("AccessType") == "const" && section.number("DefaultValue").is_some()
             };
             let sections = base.sections_where(is_constant).into_iter();
             sections.map(|section| Mutant::of(base).insert(section.behind_entries(), "ParameterValue=9")).collect()
@@ -98,7 +98,11 @@ fn configured() -> Vec<Defect> {
             let emcy = base.section("1014").filter(|_| base.kind == Kind::Dcf)?;
             Some(Mutant::of(base).insert(emcy.behind_entries(), "ParameterValue=0x87"))
         }),
-        value("DCF008", "another node-ID", "NodeID", is_commissioning, "9").by_label(),
+        once("DCF008", "another node-ID than in the COB-IDs", |base| {
+            base.entry("1400sub1", "ParameterValue")?;
+            Some(Mutant::of(base).set(base.entry(COMMISSIONING, "NodeID")?, "9"))
+        })
+        .by_label(),
     ]
 }
 

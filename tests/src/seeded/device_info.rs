@@ -47,7 +47,10 @@ fn identity() -> Vec<Defect> {
     vec![
         value("DEV006", "another vendor-ID than in 1018h", "VendorNumber", is_info, "0x00000400"),
         value("DEV006", "another product code than in 1018h", "ProductNumber", is_info, "0x00000400"),
-        value("DEV006", "another revision than in 1018h", "RevisionNumber", is_info, "0x00000400"),
+        once("DEV006", "another revision than in 1018h", |base| {
+            base.sub_object(0x1018, 3)?.entry("DefaultValue")?;
+            Some(Mutant::of(base).set(base.entry("DeviceInfo", "RevisionNumber")?, "0x00000400"))
+        }),
         identity_value("DEV006", "another vendor-ID than in `[DeviceInfo]`", 1).by_label(),
         identity_value("DEV006", "another product code than in `[DeviceInfo]`", 2).by_label(),
         once("DEV007", "a vendor-ID of 0", |base| {

@@ -59,7 +59,3 @@ pub(crate) fn items(base: &Base) -> Vec<(&Section, &Entry)> {
     lists.into_iter().flat_map(|list| list.items().into_iter().map(move |item| (list, item))).collect()
 }
 
-/// A text for the kind of a defect that is put together.
-pub(crate) fn words(text: String) -> &'static str {
-    Box::leak(text.into_boxed_str())
-}

@@ -112,7 +112,8 @@ fn items_and_sections() -> Vec<Defect> {
             twice.collect()
         }),
         mandatory_gone("no device type", 0x1000),
-        mandatory_gone("no error register", 0x1001),
+        mandatory_gone("no error register", 0x1001)
+            .with_consequence("PDO004", "a PDO of the drive maps the error register"),
         mandatory_gone("no identity object", 0x1018),
     ]
 }

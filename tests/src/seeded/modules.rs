@@ -1,7 +1,7 @@
 //! MOD: modular devices.
 
 use super::base::Section;
-use super::defect::{Defect, added, missing, once, value, value_of};
+use super::defect::{Defect, missing, once, value, value_of};
 use super::dictionary::without_object;
 use super::mutant::Mutant;
 
@@ -19,7 +19,8 @@ fn numbers() -> Vec<Defect> {
             let count = base.entry("SupportedModules", "NrOfEntries").map(|entry| entry.line);
             let gone = infos.into_iter().filter_map(|section| Some(Mutant::of(base).delete_section(section).expect(count?)));
             gone.collect()
-        }),
+        })
+        .by_label(),
         once("MOD001", "modules without `[SupportedModules]`", |base| {
             let section = base.section("SupportedModules")?;
             let first = base.section("M1ModuleInfo")?.header;
@@ -62,11 +63,9 @@ fn values() -> Vec<Defect> {
         value("MOD002", "a Count of sub-indices and bits", "Count", |_| true, "1;4"),
         missing("MOD002", "no Count", "Count", |_| true),
         value("MOD002", "a connected module that does not exist", "1", is_connected, "9"),
-        value("MOD002", "a connected module in words", "2", is_connected, "DO-8"),
         value("MOD008", "a module with another data type of the object", "DataType", |section| section.name == "M2SubExt6000", "0x0006"),
         value("MOD008", "a module with another access to the object", "AccessType", |section| section.name == "M2SubExt6000", "rw"),
         value("MOD008", "a module that excludes the object from PDOs", "PDOMapping", |section| section.name == "M2SubExt6000", "0"),
-        added("SYN024", "a key that a module's object does not know", |section| section.name.contains("SubExt6"), "Colour=red"),
     ]
 }
 

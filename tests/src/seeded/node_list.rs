@@ -47,23 +47,25 @@ fn networks() -> Vec<Defect> {
                 let manager = dcf.entry("DeviceComissioning", "CANopenManager").filter(|entry| entry.value == "0")?;
                 Some(Mutant::of(dcf).set(manager, "1"))
             })
-        }),
+        })
+        .by_label(),
         Defect::new("CPJ006", "another bit rate than the other nodes", |base| {
             with_changed_dcf(base, |dcf| Some(Mutant::of(dcf).set(dcf.entry("DeviceComissioning", "Baudrate")?, "500")))
-        }),
+        })
+        .by_label(),
     ]
 }
 
 /// A nodelist beside which one DCF was changed; the finding is expected where the nodelist names the DCF.
 pub(super) fn with_changed_dcf(base: &Base, change: impl Fn(&Base) -> Option<Mutant>) -> Vec<Mutant> {
-    let named = base.sections_where(is_topology);
-    let named = named.iter().flat_map(|list| &list.entries).filter(|entry| entry.key.ends_with("DCFName"));
-    let changed = named.filter_map(|entry| {
-        let (name, text) = base.neighbours.iter().find(|(name, _)| *name == entry.value)?;
+    let lists = base.sections_where(is_topology);
+    let changed = base.neighbours.iter().filter(|(name, _)| name.ends_with(".dcf")).filter_map(|(name, text)| {
         let dcf = change(&Base::new(name, text))?;
-        Some(Mutant::of(base).with_neighbour(name, dcf.text()).expect(entry.line))
+        let named = lists.iter().flat_map(|list| &list.entries).filter(|entry| entry.value == *name);
+        let mutant = Mutant::of(base).with_neighbour(name, dcf.text());
+        Some(named.fold(mutant, |mutant, entry| mutant.expect(entry.line)))
     });
-    changed.collect()
+    changed.filter(|_| !lists.is_empty()).collect()
 }
 
 fn is_topology(section: &Section) -> bool {

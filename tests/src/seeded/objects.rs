@@ -1,6 +1,6 @@
 //! OBJ: objects and their attributes.
 
-use super::base::{Base, Section};
+use super::base::{Base, Section, number};
 use super::defect::{Defect, added, header, missing, once, value, value_of};
 use super::dictionary::without_last_sub_object;
 use super::mutant::Mutant;
@@ -36,11 +36,11 @@ fn attributes() -> Vec<Defect> {
 
 fn structure() -> Vec<Defect> {
     vec![
-        missing("OBJ007", "no SubNumber", "SubNumber", is_array_or_record),
-        value_of("OBJ008", "SubNumber one too large", "SubNumber", |_| true, |_, old| {
+        missing("OBJ007", "no SubNumber", "SubNumber", Section::has_sub_objects),
+        value_of("OBJ008", "SubNumber one too large", "SubNumber", Section::is_object, |_, old| {
             Some((old.parse::<u16>().ok()? + 1).to_string())
         }),
-        value_of("OBJ008", "SubNumber one too small", "SubNumber", |_| true, |_, old| {
+        value_of("OBJ008", "SubNumber one too small", "SubNumber", Section::is_object, |_, old| {
             Some((old.parse::<u16>().ok()? - 1).to_string())
         }),
         Defect::new("OBJ008", "a sub-object is lost", |base| {
@@ -52,7 +52,7 @@ fn structure() -> Vec<Defect> {
             lost.collect()
         }),
         Defect::new("OBJ010", "the section of an ARRAY or RECORD is lost", |base| {
-            let objects = base.sections_where(|section| section.has_sub_objects() && is_free(section));
+            let objects = base.sections_where(|section| is_free_object(base, section));
             let lost = objects.into_iter().filter_map(|section| {
                 let first = base.sub_object(section.index()?, 0)?;
                 Some(Mutant::of(base).delete_section(section).expect(first.header))
@@ -65,7 +65,7 @@ fn structure() -> Vec<Defect> {
             lists.into_iter().map(|_| Mutant::of(base).append_section("5FF0sub0", HIGHEST)).collect()
         }),
         Defect::new("OBJ011", "a VAR with sub-objects", |base| {
-            let objects = base.sections_where(|section| section.has_sub_objects() && is_free(section));
+            let objects = base.sections_where(|section| is_free_object(base, section));
             let wrong = objects.into_iter().filter_map(|section| {
                 let first = base.sub_object(section.index()?, 0)?;
                 let mutant = Mutant::of(base).set(section.entry("ObjectType")?, "0x7");
@@ -92,18 +92,19 @@ fn structure() -> Vec<Defect> {
 fn numbers() -> Vec<Defect> {
     vec![
         value_of("OBJ014", "sub-index 00h is too small", "DefaultValue", is_fixed_highest, |_, old| {
-            Some((super::base::number(old)?.checked_sub(1)?).to_string()).filter(|new| new != "-1")
+            Some((number(old)?.checked_sub(1)?).to_string()).filter(|new| new != "-1")
         }),
-        value_of("OBJ014", "sub-index 00h is too large", "DefaultValue", is_fixed_highest, |_, old| {
-            Some((super::base::number(old)? + 1).to_string()).filter(|_| old != "0")
+        value_of("OBJ014", "sub-index 00h is too large", "DefaultValue", is_full_highest, |_, old| {
+            Some((number(old)? + 1).to_string()).filter(|_| old != "0")
         }),
         Defect::new("OBJ014", "the last sub-object is gone, but sub-index 00h counts it", |base| {
-            let objects = base.sections_where(|section| section.has_sub_objects() && is_free(section));
+            let objects = base.sections_where(Section::has_sub_objects);
             let lost = objects.into_iter().filter_map(|section| {
                 let index = section.index()?;
                 let highest = base.sub_object(index, 0).filter(|highest| is_fixed_highest(highest))?;
                 let value = highest.entry("DefaultValue")?;
-                Some(without_last_sub_object(base, index)?.set(value, &value.value))
+                let last = base.sub_objects(index).last()?.value("PDOMapping") == "0";
+                last.then(|| Some(without_last_sub_object(base, index)?.set(value, &value.value)))?
             });
             lost.collect()
         }),
@@ -115,12 +116,14 @@ fn numbers() -> Vec<Defect> {
         }),
         value("OBJ016", "a RECORD that is an ARRAY", "ObjectType", is_record_of_cia301, "0x8"),
         value("OBJ016", "an ARRAY that is a RECORD", "ObjectType", is_array_of_cia301, "0x9"),
-        added("OBJ026", "more entries possible than described", is_plain_highest, "HighLimit=200"),
+        added("OBJ026", "more entries possible than described", is_unlimited_highest, "HighLimit=200"),
         value("OBJ026", "a limit above the last described entry", "HighLimit", is_plain_highest, "200"),
-        header("OBJ027", "a sub-index counted in decimal", is_last_free_sub_object, |section| {
-            format!("[{}sub100]", section.name.split_at(4).0)
-        })
-        .with_consequence("OBJ008", "the sub-object under the wrong name is not counted"),
+        Defect::new("OBJ027", "a sub-index counted in decimal", |base| {
+            let objects = base.sections_where(|section| section.has_sub_objects() && is_free(section));
+            let lasts = objects.into_iter().filter_map(|section| base.sub_objects(section.index()?).last().copied());
+            let free = lasts.filter(|last| last.value("PDOMapping") == "0");
+            free.map(|last| Mutant::of(base).rewrite(last.header, format!("[{}sub100]", &last.name[..4]))).collect()
+        }),
     ]
 }
 
@@ -132,10 +135,11 @@ fn compact() -> Vec<Defect> {
             let entries = ["ParameterName=One", "ObjectType=0x7", "DataType=0x0006", "AccessType=rw"];
             let name = |section: &Section| format!("{}sub1", section.name);
             let more = |section: &Section| {
-                Mutant::of(base).insert_section(section.end, &name(section), &entries).expect(section.header)
+                Mutant::of(base).insert_section(section.end, &name(section), &entries)
             };
             objects.into_iter().map(more).collect()
-        }),
+        })
+        .by_label(),
         value("OBJ017", "a wrong number of compact names", "NrOfEntries", is_compact_list, "7"),
         missing("OBJ017", "no number of compact names", "NrOfEntries", is_compact_list),
         value("OBJ017", "fewer compact sub-objects than names", "CompactSubObj", is_compact, "1").by_label(),
@@ -183,21 +187,23 @@ fn links() -> Vec<Defect> {
 
 fn mapping() -> Vec<Defect> {
     vec![
-        value("OBJ022", "a word for PDOMapping", "PDOMapping", |_| true, "yes"),
-        value("OBJ022", "a PDOMapping of 2", "PDOMapping", |_| true, "2"),
+        value("OBJ022", "a word for PDOMapping", "PDOMapping", is_description, "yes"),
+        value("OBJ022", "a PDOMapping of 2", "PDOMapping", is_description, "2"),
         added("OBJ022", "an SRDOMapping of 3", Section::is_variable, "SRDOMapping=3"),
         value("OBJ023", "a DOMAIN that can be mapped", "PDOMapping", |section| section.is_code(2), "1"),
         value("OBJ023", "a long text that can be mapped", "PDOMapping", is_long_text, "1"),
         value("OBJ023", "sub-index 00h that can be mapped", "PDOMapping", is_highest, "1"),
         value("OBJ024", "an access of process data without a mapping", "AccessType", is_unmapped, "rww"),
-        value("OBJ024", "process data that cannot be mapped any more", "PDOMapping", is_unused_rww, "0"),
+        value("OBJ024", "process data that cannot be mapped any more", "PDOMapping", is_process_data, "0")
+            .by_label()
+            .with_consequence("PDO006", "a PDO may map it"),
     ]
 }
 
 const HIGHEST: &[&str] = &["ParameterName=Highest sub-index", "ObjectType=0x7", "DataType=0x0005", "AccessType=ro", "DefaultValue=1"];
 
 fn is_description(section: &Section) -> bool {
-    section.entry("ParameterName").is_some() && section.entry("ObjectType").is_some()
+    section.index().is_some()
 }
 
 /// Not of a module: there the same object may have to be described twice alike.
@@ -211,10 +217,6 @@ fn is_object_variable(section: &Section) -> bool {
 
 fn is_compact(section: &Section) -> bool {
     section.entry("CompactSubObj").is_some()
-}
-
-fn is_array_or_record(section: &Section) -> bool {
-    section.is_code(8) || section.is_code(9)
 }
 
 fn is_compact_list(section: &Section) -> bool {
@@ -240,6 +242,16 @@ fn is_fixed_highest(section: &Section) -> bool {
         && !section.is_within(0x1A00, 0x1BFF)
 }
 
+/// Sub-index 00h of an object that has no element for each node, of which some may be left out.
+fn is_full_highest(section: &Section) -> bool {
+    let of_nodes = [0x1016, 0x1F81];
+    is_fixed_highest(section) && section.index().is_some_and(|index| !of_nodes.contains(&index))
+}
+
+fn is_unlimited_highest(section: &Section) -> bool {
+    is_plain_highest(section) && section.entry("HighLimit").is_none()
+}
+
 /// Sub-index 00h of an object of the manufacturer or of a device profile.
 fn is_plain_highest(section: &Section) -> bool {
     is_highest(section) && section.is_within(0x2000, 0x9FFF)
@@ -250,8 +262,10 @@ fn is_free(section: &Section) -> bool {
     section.is_of_manufacturer() && section.value("PDOMapping") != "1"
 }
 
-fn is_last_free_sub_object(section: &Section) -> bool {
-    section.name == "2011sub3" || section.name == "2005sub1"
+/// An ARRAY or RECORD on which no other rule depends.
+fn is_free_object(base: &Base, section: &Section) -> bool {
+    let is_mapped = |index| base.sub_objects(index).iter().any(|sub| sub.value("PDOMapping") == "1");
+    section.has_sub_objects() && section.is_of_manufacturer() && section.index().is_some_and(|index| !is_mapped(index))
 }
 
 fn is_element(base: &Base, section: &Section) -> bool {
@@ -276,6 +290,6 @@ fn is_unmapped(section: &Section) -> bool {
     section.is_of_manufacturer() && section.value("AccessType") == "rw" && section.value("PDOMapping") == "0"
 }
 
-fn is_unused_rww(section: &Section) -> bool {
-    section.value("AccessType") == "rww"
+fn is_process_data(section: &Section) -> bool {
+    section.is_variable() && section.value("AccessType") == "rww"
 }

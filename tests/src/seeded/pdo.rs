@@ -114,7 +114,8 @@ fn information() -> Vec<Defect> {
         once("PDO022", "a multiplexed PDO without group messaging", |base| {
             let count = base.sub_object(0x1A00, 0)?.entry("DefaultValue")?;
             Some(Mutant::of(base).set(count, "255"))
-        }),
+        })
+        .by_label(),
         once("PDO024", "CompactPDO for PDOs that are described one by one", |base| {
             let info = base.section("DeviceInfo").filter(|info| info.entry("CompactPDO").is_none())?;
             Some(Mutant::of(base).insert(info.behind_entries(), "CompactPDO=0x17"))
@@ -131,7 +132,8 @@ fn information() -> Vec<Defect> {
         }),
         Defect::new("PDO025", "a COB-ID that cannot be switched off", |base| {
             let ids = base.sections_where(|section| is_communication_entry(section) && section.sub_index() == Some(1));
-            let fixed = ids.into_iter().filter_map(|section| {
+            let used = ids.into_iter().filter(|section| super::cob_id::is_used(section));
+            let fixed = used.filter_map(|section| {
                 let access = section.entry("AccessType").filter(|access| access.value == "rw")?;
                 Some(Mutant::of(base).set(access, "ro"))
             });

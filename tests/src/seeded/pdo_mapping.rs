@@ -14,7 +14,7 @@ fn counts() -> Vec<Defect> {
         value("PDO002", "a count of 100 mapped objects", "DefaultValue", is_count, "100"),
         mapping("PDO018", "more mapped objects than entries", |base, map| {
             let more = base.sub_objects(map.index).len();
-            Some(Mutant::of(base).set(map.count, &more.to_string()))
+            (more == map.entries.len() + 1).then(|| Mutant::of(base).set(map.count, &more.to_string()))
         }),
         Defect::new("PDO018", "a gap in the entries", |base| {
             let counts = base.sections_where(is_count).into_iter();
@@ -37,7 +37,8 @@ fn counts() -> Vec<Defect> {
             Some(Mutant::of(base).set(free, &map.entries[0].value))
         }),
         mapping("PDO012", "one mapped object less", |base, map| {
-            let last = map.entries.last().filter(|_| map.entries.len() > 1)?;
+            let is_dummy = |entry: &Entry| entry.value.starts_with("0x000");
+            let last = map.entries.last().filter(|last| map.entries.len() > 1 && !is_dummy(last))?;
             Some(Mutant::of(base).set_too(map.count, &(map.entries.len() - 1).to_string()).expect(last.line))
         }),
     ]
@@ -58,7 +59,7 @@ fn entries() -> Vec<Defect> {
             Some(Mutant::of(base).set(entry, &format!("{}02", &entry.value[..8])))
         }),
         mapping("PDO005", "another length than the object has", |base, map| {
-            let entry = map.entries.first()?;
+            let entry = map.entries.first().filter(|entry| mapped_object(base, entry).is_some())?;
             let other = if entry.value.ends_with("08") { "10" } else { "08" };
             Some(Mutant::of(base).set(entry, &format!("{}{other}", &entry.value[..8])))
         }),
@@ -84,10 +85,7 @@ fn targets() -> Vec<Defect> {
             entry_for(base, |section| section.value("AccessType") == "rw" && section.is_type(6))
         }),
         mapping("PDO006", "PDOMapping=0 of a mapped object", |base, map| {
-            let place = super::base::number(&map.entries.first()?.value)?;
-            let (index, sub_index) = ((place >> 16) as u16, (place >> 8) as u8);
-            let section = base.sub_object(index, sub_index).or(base.object(index))?;
-            Some(Mutant::of(base).set(section.entry("PDOMapping")?, "0"))
+            changed_target(base, map, true, "PDOMapping", "0")
         })
         .by_label(),
         target("PDO007", "an object to be read in an RPDO", |index, base| {
@@ -108,15 +106,15 @@ fn targets() -> Vec<Defect> {
         .by_label(),
         target("PDO019", "a mapped DOMAIN", |_, base| {
             let domain = base.sections_where(|section| section.is_code(2));
-            Some(format!("0x{}0040", domain.first()?.name))
-        })
-        .with_consequence("PDO006", "a DOMAIN says PDOMapping=0 itself"),
+            Some(format!("0x{}0008", domain.first()?.name))
+        }),
         mapping("PDO021", "a bit where bytes can be mapped", |base, map| {
             let flag = base.sections_where(|section| section.is_object() && section.is_type(1)).first().copied()?;
             let mapped = map.entries.last().filter(|_| map.index >= 0x1800)?;
             let mutant = Mutant::of(base).set_too(flag.entry("PDOMapping")?, "1");
             Some(mutant.set(mapped, &format!("0x{}0001", flag.name)))
-        }),
+        })
+        .by_label(),
     ]
 }
 
@@ -134,10 +132,15 @@ fn entry_for(base: &Base, wanted: fn(&Section) -> bool) -> Option<String> {
 }
 
 fn changed_target(base: &Base, map: &Map<'_>, wanted: bool, key: &str, new: &str) -> Option<Mutant> {
-    let place = super::base::number(&map.entries.first().filter(|_| wanted)?.value)?;
-    let (index, sub_index) = ((place >> 16) as u16, (place >> 8) as u8);
-    let section = base.sub_object(index, sub_index).or(base.object(index))?;
+    let section = mapped_object(base, map.entries.first().filter(|_| wanted)?)?;
     Some(Mutant::of(base).set(section.entry(key)?, new))
+}
+
+/// The section of the object that an entry of a mapping names.
+fn mapped_object<'a>(base: &'a Base, entry: &Entry) -> Option<&'a Section> {
+    let place = entry.number()?;
+    let (index, sub_index) = ((place >> 16) as u16, (place >> 8) as u8);
+    base.sub_object(index, sub_index).or(base.object(index))
 }
 
 fn dummies() -> Vec<Defect> {

@@ -12,8 +12,10 @@ pub(super) fn defects() -> Vec<Defect> {
             Some(Mutant::of(base).set(base.entry("1000", "DefaultValue")?, "0x00000000"))
         })
         .by_label(),
-        object_gone("a drive without a statusword", 0x6041),
-        object_gone("a drive without modes of operation", 0x6060),
+        object_gone("a drive without a statusword", 0x6041)
+            .with_consequence("PDO004", "the PDOs of the drive map it"),
+        object_gone("a drive without modes of operation", 0x6060)
+            .with_consequence("PDO004", "the PDOs of the drive map it"),
         once("PRF002", "another profile, whose objects are missing", |base| {
             let modular = base.section("SupportedModules").is_some();
             let kind = base.entry("1000", "DefaultValue").filter(|_| !modular)?;

@@ -32,6 +32,7 @@ fn numbers() -> Vec<Defect> {
         value("SYN017", "a word for the node-ID", "NodeID", any, "five"),
         value("SYN017", "a unit behind the bit rate", "Baudrate", any, "250k"),
         value("SYN017", "a word for the number of comments", "Lines", any, "two"),
+        value("SYN017", "a connected module in words", "1", |section| section.name == "ConnectedModules", "DI-8"),
         value("SYN017", "a word for the number of nodes", "Nodes", any, "three"),
         value_of("SYN018", "a leading zero at a default value", "DefaultValue", is_integer, |section, _| {
             (section.is_of_manufacturer() && section.sub_index() != Some(0)).then(|| "010".to_owned())

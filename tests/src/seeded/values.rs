@@ -1,7 +1,8 @@
 //! VAL: data types and values.
 
 use super::base::Section;
-use super::defect::{Defect, added, missing, value, value_of};
+use super::defect::{Defect, added, value, value_of};
+use super::mutant::Mutant;
 
 pub(super) fn defects() -> Vec<Defect> {
     [types(), ranges(), limits(), formulas(), texts()].into_iter().flatten().collect()
@@ -34,13 +35,19 @@ fn ranges() -> Vec<Defect> {
         value("VAL002", "a compact value that is negative", "2", is_value_list, "-1"),
         added("VAL002", "an upper limit beyond the type", is_unlimited_unsigned16, "HighLimit=70000"),
         value("VAL002", "a default of compact sub-objects beyond their type", "DefaultValue", is_compact, "70000"),
-        value_of("VAL002", "a type that is too small for the value", "DataType", is_unsigned16, |section, _| {
-            let fits = section.number("DefaultValue").is_none_or(|default| default < 0x100);
-            (section.is_of_manufacturer() && section.value("DefaultValue") != "" && !fits).then(|| "0x0005".to_owned())
+        value_of("VAL002", "a type without a sign for a negative value", "DataType", is_integer16, |section, _| {
+            section.value("DefaultValue").starts_with('-').then(|| "0x0006".to_owned())
         })
         .by_label(),
-        missing("VAL011", "a constant without a value", "DefaultValue", is_constant_number),
-        value("VAL011", "a constant with an empty value", "DefaultValue", is_constant_number, ""),
+        Defect::new("VAL011", "a constant without a value", |base| {
+            let constants = base.sections_where(is_constant_number).into_iter();
+            let lost = constants.filter_map(|section| {
+                let mutant = Mutant::of(base).delete(section.entry("DefaultValue")?.line);
+                Some(mutant.expect(section.entry("AccessType")?.line))
+            });
+            lost.collect()
+        }),
+        value("VAL011", "a constant with an empty value", "DefaultValue", is_constant_number, "").by_label(),
     ]
 }
 
@@ -76,7 +83,7 @@ fn limits() -> Vec<Defect> {
                 section.is_variable() && section.is_type(5) && section.value("HighLimit").is_empty()
             });
             let limited = sections.into_iter().map(|section| {
-                let mutant = super::Mutant::of(base).insert(section.behind_entries(), "LowLimit=0");
+                let mutant = Mutant::of(base).insert(section.behind_entries(), "LowLimit=0");
                 mutant.insert(section.behind_entries(), "HighLimit=255")
             });
             limited.collect()
@@ -90,10 +97,10 @@ fn formulas() -> Vec<Defect> {
         value("VAL006", "a formula at a REAL32", "DefaultValue", |section| section.is_type(8), "$NODEID+1"),
         value("VAL006", "a formula at a text", "DefaultValue", |section| section.is_type(9), "$NODEID"),
         value("VAL006", "a formula at an octet string", "DefaultValue", |section| section.is_type(0xA), "$NODEID"),
-        value("VAL007", "a formula above 8 bits", "DefaultValue", is_own_unsigned8, "$NODEID+0xF0"),
-        value("VAL007", "a formula above 16 bits", "DefaultValue", is_own_unsigned16, "$NODEID+0xFFF0"),
-        value("VAL007", "a formula above 32 bits", "DefaultValue", is_own_unsigned32, "$NODEID+0xFFFFFFF0"),
-        value("VAL007", "a formula above 7 bits and a sign", "DefaultValue", is_integer8, "$NODEID+0x70"),
+        value("VAL007", "a formula above 8 bits", "DefaultValue", is_own_unsigned8, "$NODEID+0xFF"),
+        value("VAL007", "a formula above 16 bits", "DefaultValue", is_own_unsigned16, "$NODEID+0xFFFF"),
+        value("VAL007", "a formula above 32 bits", "DefaultValue", is_own_unsigned32, "$NODEID+0xFFFFFFFF"),
+        value("VAL007", "a formula above the 8 bits of an INTEGER8", "DefaultValue", is_integer8, "$NODEID+0xFF"),
     ]
 }
 
@@ -176,7 +183,8 @@ fn is_own_unsigned32(section: &Section) -> bool {
 }
 
 fn has_limits(section: &Section) -> bool {
-    section.number("LowLimit").is_some() && section.number("HighLimit").is_some()
+    let is_own = section.is_variable() && section.sub_index() != Some(0);
+    is_own && section.number("LowLimit").is_some() && section.number("HighLimit").is_some()
 }
 
 fn has_low_limit(section: &Section) -> bool {

@@ -3,7 +3,7 @@ use crate::profile::{alternatives, type_name};
 use crate::rule::rule;
 use crate::{Context, Report, Severity, Variable};
 use edskit_model::{Field, SubObject};
-use edskit_types::{DataType, Index};
+use edskit_types::{DataType, DataTypeKind, Index};
 
 rule! {
     /// An object has another data type than its profile prescribes
@@ -54,6 +54,10 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     }
     let Some(field) = variable.data_type else { return };
     let Some(data_type) = field.known().map(Index).filter(|&index| is_data_type(index)) else { return };
+    // A record type on a single value is the matter of VAL001.
+    if variable.holds_value() && variable.standard_type.is_some_and(|known| known.kind() == DataTypeKind::Record) {
+        return;
+    }
     for prescribed in variable.prescribed() {
         let types = &prescribed.attributes.types;
         if types.is_empty() || types.contains(&data_type) {
@@ -123,6 +127,7 @@ mod tests {
     fn several_types_can_be_right() {
         assert!(findings(&WRONG_DATATYPE, "[1022]\nDataType=5\n").is_empty());
         assert!(findings(&WRONG_DATATYPE, "[1022]\nDataType=6\n").is_empty());
+        assert!(findings(&WRONG_DATATYPE, "[1022]\nDataType=0x21\n").is_empty(), "VAL001");
         assert_eq!(
             findings(&WRONG_DATATYPE, "[1022]\nDataType=7\n"),
             [

@@ -1,6 +1,8 @@
 use super::structure::needs_attributes;
+use crate::missing::place_of;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
+use edskit_model::KeyName;
 
 rule! {
     /// A value has no access type
@@ -48,7 +50,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         return;
     }
     report
-        .add(variable.description.section().span(), format!("{} has no AccessType", variable.place()))
+        .add(place_of(variable.description.section(), KeyName::AccessType), format!("{} has no AccessType", variable.place()))
         .help("write `AccessType=` with `ro`, `wo`, `rw`, `rwr`, `rww` or `const`");
 }
 
