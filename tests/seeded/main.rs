@@ -25,7 +25,12 @@ fn every_defect_is_caught() {
     let runs: Vec<Run> = defects.iter().map(|defect| run::run(defect, &bases)).collect();
     table::print(&runs);
     let failures: Vec<&str> = runs.iter().flat_map(|run| &run.failures).map(String::as_str).collect();
-    assert!(failures.is_empty(), "{} mutants are not judged as they must be:\n{}", failures.len(), failures.join("\n"));
+    assert!(
+        failures.is_empty(),
+        "{} mutants are not judged as they must be:\n{}",
+        failures.len(),
+        failures.join("\n")
+    );
 }
 
 #[test]

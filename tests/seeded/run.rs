@@ -37,7 +37,11 @@ pub(crate) fn run(defect: &Defect, bases: &[Base]) -> Run {
                     defect.kind,
                     base.name,
                     mutant.expected(),
-                    if found { "caught".to_owned() } else { format!("MISSED, found were {:?}", report.places()) },
+                    if found {
+                        "caught".to_owned()
+                    } else {
+                        format!("MISSED, found were {:?}", report.places())
+                    },
                     if unrelated.is_empty() { String::new() } else { format!("; unrelated {unrelated:?}") },
                 ));
             }

@@ -9,7 +9,8 @@ use crate::rules::syntax::lost_header;
 use crate::{FileKind, Finding, Label, Neighbours, Rule};
 use core::cell::OnceCell;
 use edskit_model::{
-    Datasheet, Description, Document, Entry, Field, KeyName, Section, SectionKind, Span, Value, ValueErrorKind,
+    Datasheet, Description, Document, Entry, Field, KeyName, Section, SectionKind, Span, Value,
+    ValueErrorKind,
 };
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 

@@ -20,8 +20,9 @@ pub(super) fn defects() -> Vec<Defect> {
         once("COB003", "two TPDOs with one CAN-ID", |base| {
             let first = base.sub_object(0x1800, 1)?;
             let second = base.sub_object(0x1801, 1)?;
-            (is_used(first) && is_used(second))
-                .then(|| Some(Mutant::of(base).set(second.entry("DefaultValue")?, first.value("DefaultValue"))))?
+            (is_used(first) && is_used(second)).then(|| {
+                Some(Mutant::of(base).set(second.entry("DefaultValue")?, first.value("DefaultValue")))
+            })?
         })
         .by_label(),
         once("COB003", "a TPDO at the CAN-ID of EMCY", |base| {
@@ -42,7 +43,9 @@ pub(super) fn defects() -> Vec<Defect> {
             Some(format!("0x{:08X}", 0x2000_0000 + predefined(section)? + 5))
         }),
         emcy("COB005", "EMCY with an extended frame", "$NODEID+0x20000080"),
-        pdo_of_eds("COB006", "a PDO of a certain node", |section| Some(format!("0x{:X}", predefined(section)? + 5))),
+        pdo_of_eds("COB006", "a PDO of a certain node", |section| {
+            Some(format!("0x{:X}", predefined(section)? + 5))
+        }),
         emcy_of_eds("COB006", "EMCY of a certain node", "0x85"),
         pdo_of_eds("COB007", "a PDO at another predefined CAN-ID", |section| {
             let other = if section.is_within(0x1400, 0x15FF) { "$NODEID+0x500" } else { "$NODEID+0x480" };
@@ -75,10 +78,11 @@ fn pdo(rule: &'static str, kind: &'static str, new: fn(&Section) -> Option<Strin
 /// The same in data sheets only.
 fn pdo_of_eds(rule: &'static str, kind: &'static str, new: fn(&Section) -> Option<String>) -> Defect {
     Defect::new(rule, kind, move |base| {
-        let ids = base.sections_where(|section| base.kind == Kind::Eds && is_pdo_id(section) && is_used(section));
-        let changed = ids.into_iter().filter_map(|section| {
-            Some(Mutant::of(base).set(section.entry("DefaultValue")?, &new(section)?))
-        });
+        let ids =
+            base.sections_where(|section| base.kind == Kind::Eds && is_pdo_id(section) && is_used(section));
+        let changed = ids
+            .into_iter()
+            .filter_map(|section| Some(Mutant::of(base).set(section.entry("DefaultValue")?, &new(section)?)));
         changed.collect()
     })
 }
@@ -96,11 +100,13 @@ fn emcy_of_eds(rule: &'static str, kind: &'static str, new: &'static str) -> Def
 
 /// A DCF beside a nodelist gets the COB-ID of another one; the finding is expected at its name in the nodelist.
 fn sender(rule: &'static str, kind: &'static str, id: fn(&Base) -> Option<&Entry>) -> Defect {
-    Defect::new(rule, kind, move |base| super::node_list::with_changed_dcf(base, |dcf| {
-        let entry = id(dcf)?;
-        let node = dcf.section("DeviceComissioning")?.number("NodeID")?;
-        Some(Mutant::of(dcf).set(entry, if node == 5 { "0x40000186" } else { "0x185" }))
-    }))
+    Defect::new(rule, kind, move |base| {
+        super::node_list::with_changed_dcf(base, |dcf| {
+            let entry = id(dcf)?;
+            let node = dcf.section("DeviceComissioning")?.number("NodeID")?;
+            Some(Mutant::of(dcf).set(entry, if node == 5 { "0x40000186" } else { "0x185" }))
+        })
+    })
 }
 
 fn is_pdo_id(section: &Section) -> bool {

@@ -14,29 +14,107 @@ pub(super) fn defects() -> Vec<Defect> {
 
 fn attributes() -> Vec<Defect> {
     vec![
-        value("COM001", "a heartbeat time that is a DOMAIN", "ObjectType", |section| section.name == "1017", "0x2"),
-        value("COM001", "an error register that is a DOMAIN", "ObjectType", |section| section.name == "1001", "0x2"),
+        value(
+            "COM001",
+            "a heartbeat time that is a DOMAIN",
+            "ObjectType",
+            |section| section.name == "1017",
+            "0x2",
+        ),
+        value(
+            "COM001",
+            "an error register that is a DOMAIN",
+            "ObjectType",
+            |section| section.name == "1001",
+            "0x2",
+        ),
         value("COM002", "a device type with a sign", "DataType", |section| section.name == "1000", "0x0004"),
-        value("COM002", "an error register with a sign", "DataType", |section| section.name == "1001", "0x0002"),
-        value("COM002", "a heartbeat time of 32 bits", "DataType", |section| section.name == "1017", "0x0007"),
-        value("COM002", "a vendor-ID with a sign", "DataType", |section| section.name == "1018sub1", "0x0004"),
-        value("COM002", "a monitored heartbeat with a sign", "DataType", |section| section.name == "1016sub1", "0x0004"),
+        value(
+            "COM002",
+            "an error register with a sign",
+            "DataType",
+            |section| section.name == "1001",
+            "0x0002",
+        ),
+        value(
+            "COM002",
+            "a heartbeat time of 32 bits",
+            "DataType",
+            |section| section.name == "1017",
+            "0x0007",
+        ),
+        value(
+            "COM002",
+            "a vendor-ID with a sign",
+            "DataType",
+            |section| section.name == "1018sub1",
+            "0x0004",
+        ),
+        value(
+            "COM002",
+            "a monitored heartbeat with a sign",
+            "DataType",
+            |section| section.name == "1016sub1",
+            "0x0004",
+        ),
         value("COM002", "a COB-ID of a PDO with a sign", "DataType", is_pdo_cob_id, "0x0004"),
         value("COM002", "an inhibit time of 8 bits", "DataType", is_inhibit_time, "0x0005"),
         value("COM002", "a mapped object with a sign", "DataType", is_mapping_entry, "0x0004"),
-        value("COM002", "a device name that is a number", "DataType", |section| section.name == "1008", "0x0007")
-            .with_consequence("SYN017", "the text is no number of the new type"),
-        value("COM003", "a device type that can be written", "AccessType", |section| section.name == "1000", "rw"),
-        value("COM003", "an error register that can be written", "AccessType", |section| section.name == "1001", "rw"),
-        value("COM003", "a vendor-ID that can be written", "AccessType", |section| section.name == "1018sub1", "rw"),
-        value("COM003", "a heartbeat time that cannot be read", "AccessType", |section| section.name == "1017", "wo"),
-        value("COM003", "a cycle period that cannot be written", "AccessType", |section| section.name == "1006", "ro"),
+        value(
+            "COM002",
+            "a device name that is a number",
+            "DataType",
+            |section| section.name == "1008",
+            "0x0007",
+        )
+        .with_consequence("SYN017", "the text is no number of the new type"),
+        value(
+            "COM003",
+            "a device type that can be written",
+            "AccessType",
+            |section| section.name == "1000",
+            "rw",
+        ),
+        value(
+            "COM003",
+            "an error register that can be written",
+            "AccessType",
+            |section| section.name == "1001",
+            "rw",
+        ),
+        value(
+            "COM003",
+            "a vendor-ID that can be written",
+            "AccessType",
+            |section| section.name == "1018sub1",
+            "rw",
+        ),
+        value(
+            "COM003",
+            "a heartbeat time that cannot be read",
+            "AccessType",
+            |section| section.name == "1017",
+            "wo",
+        ),
+        value(
+            "COM003",
+            "a cycle period that cannot be written",
+            "AccessType",
+            |section| section.name == "1006",
+            "ro",
+        ),
     ]
 }
 
 fn error_history() -> Vec<Defect> {
     vec![
-        value("COM004", "an error history that cannot be cleared", "AccessType", |section| section.name == "1003sub0", "ro"),
+        value(
+            "COM004",
+            "an error history that cannot be cleared",
+            "AccessType",
+            |section| section.name == "1003sub0",
+            "ro",
+        ),
         value("COM004", "errors that can be written", "AccessType", is_past_error, "rw"),
     ]
 }
@@ -50,7 +128,9 @@ fn sync() -> Vec<Defect> {
             let sync = base.entry("1005", "DefaultValue")?;
             let mutant = without_object(base, 0x1006)?.set(sync, "0x40000080");
             Some(match base.entry("1005", "ParameterValue") {
-                Some(configured) => mutant.delete(sync.line).rewrite(configured.line, "ParameterValue=0x40000080"),
+                Some(configured) => {
+                    mutant.delete(sync.line).rewrite(configured.line, "ParameterValue=0x40000080")
+                }
                 None => mutant,
             })
         }),
@@ -96,8 +176,20 @@ fn sync_id(rule: &'static str, kind: &'static str, id: &'static str) -> Defect {
 
 fn emcy() -> Vec<Defect> {
     vec![
-        value("COM009", "EMCY at another CAN-ID", "DefaultValue", |section| section.name == "1014", "$NODEID+0x680"),
-        value("COM009", "EMCY at a constant CAN-ID", "DefaultValue", |section| section.name == "1014", "0x6A0"),
+        value(
+            "COM009",
+            "EMCY at another CAN-ID",
+            "DefaultValue",
+            |section| section.name == "1014",
+            "$NODEID+0x680",
+        ),
+        value(
+            "COM009",
+            "EMCY at a constant CAN-ID",
+            "DefaultValue",
+            |section| section.name == "1014",
+            "0x6A0",
+        ),
     ]
 }
 
@@ -130,7 +222,8 @@ fn error_control() -> Vec<Defect> {
 fn heartbeat(kind: &'static str, new: &'static str) -> Defect {
     Defect::new("COM012", kind, move |base| {
         let subs = base.sub_objects(0x1016).into_iter().skip(1);
-        let values = subs.filter_map(|section| section.entry("ParameterValue").or(section.entry("DefaultValue")));
+        let values =
+            subs.filter_map(|section| section.entry("ParameterValue").or(section.entry("DefaultValue")));
         values.map(|value| Mutant::of(base).set(value, new)).collect()
     })
 }
@@ -149,15 +242,32 @@ fn identity() -> Vec<Defect> {
         }),
         once("COM013", "an identity of five entries", |base| {
             base.sub_object(0x1018, 4)?;
-            with_sub_object(base, 0x1018, 5, &["ParameterName=Colour", "ObjectType=0x7", "DataType=0x0007", "AccessType=ro"])
+            with_sub_object(
+                base,
+                0x1018,
+                5,
+                &["ParameterName=Colour", "ObjectType=0x7", "DataType=0x0007", "AccessType=ro"],
+            )
         }),
     ]
 }
 
 fn sdo() -> Vec<Defect> {
     vec![
-        value("COM015", "another CAN-ID of the default SDO", "DefaultValue", |section| section.name == "1200sub1", "$NODEID+0x640"),
-        value("COM015", "a default SDO without its node-ID", "DefaultValue", |section| section.name == "1200sub2", "0x580"),
+        value(
+            "COM015",
+            "another CAN-ID of the default SDO",
+            "DefaultValue",
+            |section| section.name == "1200sub1",
+            "$NODEID+0x640",
+        ),
+        value(
+            "COM015",
+            "a default SDO without its node-ID",
+            "DefaultValue",
+            |section| section.name == "1200sub2",
+            "0x580",
+        ),
         once("COM016", "an SDO client without its node-ID", |base| {
             let set = |mutant: Mutant, sub_index, value: &str| {
                 let section = base.sub_object(0x1280, sub_index)?;
@@ -185,22 +295,44 @@ fn values() -> Vec<Defect> {
         value("COM008", "a counter overflow of 1", "DefaultValue", |section| section.name == "1019", "1"),
         value("COM008", "a counter overflow of 241", "DefaultValue", |section| section.name == "1019", "241"),
         value("COM008", "an error behaviour of 3", "DefaultValue", is_error_behaviour, "3"),
-        value("COM018", "a cycle period with a default", "DefaultValue", |section| section.name == "1006", "1000"),
-        value("COM018", "an inhibit time of EMCY with a default", "DefaultValue", |section| section.name == "1015", "100"),
+        value(
+            "COM018",
+            "a cycle period with a default",
+            "DefaultValue",
+            |section| section.name == "1006",
+            "1000",
+        ),
+        value(
+            "COM018",
+            "an inhibit time of EMCY with a default",
+            "DefaultValue",
+            |section| section.name == "1015",
+            "100",
+        ),
         once("COM019", "the old count of PDOs", |base| {
             let line = base.section("1005").or(base.section("1008")).or(base.section("1016"))?.header;
             let number = |key| base.section("DeviceInfo")?.number(key);
             let counted = (number("NrOfRXPDO")? << 16) + number("NrOfTXPDO")? + 1;
             let list = base.section("OptionalObjects")?;
             let mutant = also_listed(Mutant::of(base), list, 0x1004)?;
-            let mutant = mutant.insert_section(line, "1004", &["ParameterName=Number of PDOs", "ObjectType=0x8", "SubNumber=1"]);
+            let mutant = mutant.insert_section(
+                line,
+                "1004",
+                &["ParameterName=Number of PDOs", "ObjectType=0x8", "SubNumber=1"],
+            );
             let default = format!("DefaultValue=0x{counted:08X}");
             let entries = ["ParameterName=PDOs", "ObjectType=0x7", "DataType=0x0007", "AccessType=ro"];
             let mutant = mutant.insert_too(line, "[1004sub0]");
             let mutant = entries.iter().fold(mutant, |mutant, entry| mutant.insert_too(line, *entry));
             Some(mutant.insert(line, default))
         }),
-        value("COM020", "a heartbeat time that can be mapped", "PDOMapping", |section| section.name == "1017", "1"),
+        value(
+            "COM020",
+            "a heartbeat time that can be mapped",
+            "PDOMapping",
+            |section| section.name == "1017",
+            "1",
+        ),
         value("COM020", "a COB-ID that can be mapped", "PDOMapping", is_pdo_cob_id, "1"),
     ]
 }

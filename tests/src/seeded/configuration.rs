@@ -17,10 +17,19 @@ fn commissioning() -> Vec<Defect> {
         }),
         once("DCF001", "an EDS with `[DeviceComissioning]`", |base| {
             let line = base.section("DummyUsage").filter(|_| base.kind == Kind::Eds)?.header;
-            let entries = ["NodeID=5", "NodeName=Five", "Baudrate=250", "NetNumber=1", "NetworkName=Line", "LSS_SerialNumber=0"];
+            let entries = [
+                "NodeID=5",
+                "NodeName=Five",
+                "Baudrate=250",
+                "NetNumber=1",
+                "NetworkName=Line",
+                "LSS_SerialNumber=0",
+            ];
             Some(Mutant::of(base).insert_section(line, COMMISSIONING, &entries))
         }),
-        header("DCF002", "`[DeviceCommissioning]` with two m", is_commissioning, |_| "[DeviceCommissioning]".to_owned()),
+        header("DCF002", "`[DeviceCommissioning]` with two m", is_commissioning, |_| {
+            "[DeviceCommissioning]".to_owned()
+        }),
         value("DCF003", "a node-ID of 0", "NodeID", is_commissioning, "0"),
         value("DCF003", "a node-ID of 128", "NodeID", is_commissioning, "128"),
         value("DCF003", "a node-ID that is not set yet", "NodeID", is_commissioning, "255"),
@@ -40,7 +49,8 @@ fn commissioning() -> Vec<Defect> {
         value("DCF010", "another serial number than in 1018h", "LSS_SerialNumber", has_serial_number, "999"),
         once("DCF009", "a manager without NMT startup", |base| {
             let manager = base.entry(COMMISSIONING, "CANopenManager")?;
-            let mutant = if base.object(0x1F80).is_some() { without_object(base, 0x1F80)? } else { Mutant::of(base) };
+            let mutant =
+                if base.object(0x1F80).is_some() { without_object(base, 0x1F80)? } else { Mutant::of(base) };
             Some(mutant.set(manager, "1"))
         }),
     ]
@@ -52,9 +62,12 @@ fn entries_of_eds() -> Vec<Defect> {
         in_eds("a Denotation in an EDS", "Denotation=Left"),
         in_eds("a ParamRefd in an EDS", "ParamRefd=A1"),
         Defect::new("DCF005", "values of compact sub-objects in an EDS", |base| {
-            let objects = base.sections_where(|section| base.kind == Kind::Eds && section.entry("CompactSubObj").is_some());
+            let objects = base
+                .sections_where(|section| base.kind == Kind::Eds && section.entry("CompactSubObj").is_some());
             let name = |section: &Section| format!("{}Value", section.name);
-            let list = |section: &Section| Mutant::of(base).append_section(&name(section), &["NrOfEntries=1", "1=5"]);
+            let list = |section: &Section| {
+                Mutant::of(base).append_section(&name(section), &["NrOfEntries=1", "1=5"])
+            };
             objects.into_iter().map(list).collect()
         }),
         once("DCF005", "connected modules in an EDS", |base| {
@@ -75,21 +88,38 @@ fn configured() -> Vec<Defect> {
     vec![
         Defect::new("DCF006", "a configured value of a constant", |base| {
             let is_constant = |section: &Section| {
-                base.kind == Kind::Dcf && section.is_variable() && section.value("AccessType") == "const" && section.number("DefaultValue").is_some()
+                base.kind == Kind::Dcf
+                    && section.is_variable()
+                    && section.value("AccessType") == "const"
+                    && section.number("DefaultValue").is_some()
             };
             let sections = base.sections_where(is_constant).into_iter();
-            sections.map(|section| Mutant::of(base).insert(section.behind_entries(), "ParameterValue=9")).collect()
+            sections
+                .map(|section| Mutant::of(base).insert(section.behind_entries(), "ParameterValue=9"))
+                .collect()
         }),
         Defect::new("DCF006", "a configured product code", |base| {
-            let sections = base.sections_where(|section| base.kind == Kind::Dcf && section.name == "1018sub2");
-            sections.into_iter().map(|section| Mutant::of(base).insert(section.behind_entries(), "ParameterValue=9")).collect()
+            let sections =
+                base.sections_where(|section| base.kind == Kind::Dcf && section.name == "1018sub2");
+            sections
+                .into_iter()
+                .map(|section| Mutant::of(base).insert(section.behind_entries(), "ParameterValue=9"))
+                .collect()
         }),
         added("DCF007", "a DownloadFile of a number", is_configured_number, "DownloadFile=motion.tab"),
         value("DCF007", "a DownloadFile that does not exist", "DownloadFile", |_| true, "lost.tab"),
-        value("DCF007", "a DownloadFile of an object that cannot be written", "AccessType", has_download, "ro").by_label(),
+        value(
+            "DCF007",
+            "a DownloadFile of an object that cannot be written",
+            "AccessType",
+            has_download,
+            "ro",
+        )
+        .by_label(),
         once("DCF007", "an UploadFile of an object that cannot be read", |base| {
             let section = base.sections_where(has_download).first().copied()?;
-            let mutant = Mutant::of(base).rewrite(section.entry("DownloadFile")?.line, "UploadFile=motion.tab");
+            let mutant =
+                Mutant::of(base).rewrite(section.entry("DownloadFile")?.line, "UploadFile=motion.tab");
             Some(mutant.set_too(section.entry("AccessType")?, "wo"))
         }),
         value("DCF008", "the COB-ID of another node", "ParameterValue", is_own_pdo, "0x207"),

@@ -96,7 +96,8 @@ fn pdos() -> Vec<Defect> {
 /// A count of PDOs one below what is described from `first` on.
 fn counted(rule: &'static str, kind: &'static str, key: &'static str, first: u16) -> Defect {
     once(rule, kind, move |base| {
-        let described = base.sections_where(|section| section.is_object() && section.is_within(first, first + 0x1FF));
+        let described =
+            base.sections_where(|section| section.is_object() && section.is_within(first, first + 0x1FF));
         let fewer = described.len().checked_sub(1)?;
         Some(Mutant::of(base).set(base.entry("DeviceInfo", key)?, &fewer.to_string()))
     })

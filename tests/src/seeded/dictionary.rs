@@ -58,4 +58,3 @@ pub(crate) fn items(base: &Base) -> Vec<(&Section, &Entry)> {
     let lists = base.lists();
     lists.into_iter().flat_map(|list| list.items().into_iter().map(move |item| (list, item))).collect()
 }
-

@@ -65,16 +65,26 @@ fn dates() -> Vec<Defect> {
 
 fn names() -> Vec<Defect> {
     vec![
-        value_of("FIL008", "the name of another file", "FileName", is_info, |_, old| Some(format!("old-{old}"))),
-        value_of("FIL009", "a ParameterName of 242 characters", "ParameterName", |_| true, |_, old| {
-            Some(format!("{old:.<242}"))
+        value_of("FIL008", "the name of another file", "FileName", is_info, |_, old| {
+            Some(format!("old-{old}"))
         }),
+        value_of(
+            "FIL009",
+            "a ParameterName of 242 characters",
+            "ParameterName",
+            |_| true,
+            |_, old| Some(format!("{old:.<242}")),
+        ),
         value_of("FIL009", "a Description of 244 characters", "Description", is_info, |_, old| {
             Some(format!("{old:.<244}"))
         }),
-        value_of("FIL009", "an OrderCode of 246 characters", "OrderCode", |_| true, |_, old| {
-            Some(format!("{old:.<246}"))
-        }),
+        value_of(
+            "FIL009",
+            "an OrderCode of 246 characters",
+            "OrderCode",
+            |_| true,
+            |_, old| Some(format!("{old:.<246}")),
+        ),
         once("FIL010", "LastEDS in an EDS", |base| {
             let info = base.section("FileInfo").filter(|_| base.kind == Kind::Eds)?;
             Some(Mutant::of(base).insert(info.behind_entries(), "LastEDS=older.eds"))

@@ -46,7 +46,11 @@ fn counts() -> Vec<Defect> {
                 list.items().iter().fold(Mutant::of(base), |mutant, item| {
                     let number: usize = item.key.parse().unwrap_or_default();
                     let text = format!("{}={}", number - 1, item.value);
-                    if number == 1 { mutant.rewrite(item.line, text) } else { mutant.rewrite_too(item.line, text) }
+                    if number == 1 {
+                        mutant.rewrite(item.line, text)
+                    } else {
+                        mutant.rewrite_too(item.line, text)
+                    }
                 })
             });
             shifted.collect()
@@ -96,9 +100,9 @@ fn items_and_sections() -> Vec<Defect> {
         }),
         Defect::new("LST005", "an object that is not listed", |base| {
             let objects = base.sections_where(|section| section.is_object() && !is_mandatory(section));
-            let unlisted = objects.into_iter().filter_map(|section| {
-                Some(unlisted(base, section.index()?)?.expect(section.header))
-            });
+            let unlisted = objects
+                .into_iter()
+                .filter_map(|section| Some(unlisted(base, section.index()?)?.expect(section.header)));
             unlisted.collect()
         }),
         Defect::new("LST006", "an object that is listed twice", |base| {
@@ -157,7 +161,9 @@ fn indices() -> Vec<Defect> {
             Some(NEW_VARIABLE.iter().fold(mutant, |mutant, entry| mutant.insert_too(line, *entry)))
         }),
         Defect::new("LST011", "an index without its `0x`", |base| {
-            let items = items(base).into_iter().filter(|(_, item)| item.value.bytes().skip(2).all(|byte| byte.is_ascii_digit()));
+            let items = items(base)
+                .into_iter()
+                .filter(|(_, item)| item.value.bytes().skip(2).all(|byte| byte.is_ascii_digit()));
             items.map(|(_, item)| Mutant::of(base).set(item, &item.value[2..])).collect()
         })
         .with_consequence("LST007", "an index that is read otherwise names another object"),
@@ -171,7 +177,8 @@ fn reserved(kind: &'static str, name: &'static str) -> Defect {
     })
 }
 
-const NEW_VARIABLE: &[&str] = &["ParameterName=New", "ObjectType=0x7", "DataType=0x0007", "AccessType=ro", "DefaultValue=1"];
+const NEW_VARIABLE: &[&str] =
+    &["ParameterName=New", "ObjectType=0x7", "DataType=0x0007", "AccessType=ro", "DefaultValue=1"];
 
 fn is_mandatory(section: &Section) -> bool {
     matches!(section.index(), Some(0x1000 | 0x1001 | 0x1018))

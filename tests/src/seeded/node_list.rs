@@ -30,13 +30,17 @@ fn nodes() -> Vec<Defect> {
             lost.collect()
         }),
         Defect::new("CPJ002", "another node-ID in the DCF", |base| {
-            with_changed_dcf(base, |dcf| Some(Mutant::of(dcf).set(dcf.entry("DeviceComissioning", "NodeID")?, "9")))
+            with_changed_dcf(base, |dcf| {
+                Some(Mutant::of(dcf).set(dcf.entry("DeviceComissioning", "NodeID")?, "9"))
+            })
         }),
         added("CPJ003", "a node 0", is_topology, "Node0Present=0x00"),
         added("CPJ003", "a node 128", is_topology, "Node128Name=Spare"),
         value("CPJ004", "a node that is present with 2", "Node7Present", is_topology, "0x02"),
-        value_of("CPJ004", "a node that is present with 255", "Node6Present", is_topology, |_, _| Some("0xFF".to_owned()))
-            .with_consequence("CPJ001", "the node is not counted as present any more"),
+        value_of("CPJ004", "a node that is present with 255", "Node6Present", is_topology, |_, _| {
+            Some("0xFF".to_owned())
+        })
+        .with_consequence("CPJ001", "the node is not counted as present any more"),
     ]
 }
 
@@ -44,13 +48,16 @@ fn networks() -> Vec<Defect> {
     vec![
         Defect::new("CPJ005", "two managers", |base| {
             with_changed_dcf(base, |dcf| {
-                let manager = dcf.entry("DeviceComissioning", "CANopenManager").filter(|entry| entry.value == "0")?;
+                let manager =
+                    dcf.entry("DeviceComissioning", "CANopenManager").filter(|entry| entry.value == "0")?;
                 Some(Mutant::of(dcf).set(manager, "1"))
             })
         })
         .by_label(),
         Defect::new("CPJ006", "another bit rate than the other nodes", |base| {
-            with_changed_dcf(base, |dcf| Some(Mutant::of(dcf).set(dcf.entry("DeviceComissioning", "Baudrate")?, "500")))
+            with_changed_dcf(base, |dcf| {
+                Some(Mutant::of(dcf).set(dcf.entry("DeviceComissioning", "Baudrate")?, "500"))
+            })
         })
         .by_label(),
     ]
@@ -59,12 +66,13 @@ fn networks() -> Vec<Defect> {
 /// A nodelist beside which one DCF was changed; the finding is expected where the nodelist names the DCF.
 pub(super) fn with_changed_dcf(base: &Base, change: impl Fn(&Base) -> Option<Mutant>) -> Vec<Mutant> {
     let lists = base.sections_where(is_topology);
-    let changed = base.neighbours.iter().filter(|(name, _)| name.ends_with(".dcf")).filter_map(|(name, text)| {
-        let dcf = change(&Base::new(name, text))?;
-        let named = lists.iter().flat_map(|list| &list.entries).filter(|entry| entry.value == *name);
-        let mutant = Mutant::of(base).with_neighbour(name, dcf.text());
-        Some(named.fold(mutant, |mutant, entry| mutant.expect(entry.line)))
-    });
+    let changed =
+        base.neighbours.iter().filter(|(name, _)| name.ends_with(".dcf")).filter_map(|(name, text)| {
+            let dcf = change(&Base::new(name, text))?;
+            let named = lists.iter().flat_map(|list| &list.entries).filter(|entry| entry.value == *name);
+            let mutant = Mutant::of(base).with_neighbour(name, dcf.text());
+            Some(named.fold(mutant, |mutant, entry| mutant.expect(entry.line)))
+        });
     changed.filter(|_| !lists.is_empty()).collect()
 }
 

@@ -6,7 +6,10 @@ use super::dictionary::without_last_sub_object;
 use super::mutant::Mutant;
 
 pub(super) fn defects() -> Vec<Defect> {
-    [attributes(), structure(), numbers(), compact(), flags(), links(), mapping()].into_iter().flatten().collect()
+    [attributes(), structure(), numbers(), compact(), flags(), links(), mapping()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 fn attributes() -> Vec<Defect> {
@@ -45,10 +48,11 @@ fn structure() -> Vec<Defect> {
         }),
         Defect::new("OBJ008", "a sub-object is lost", |base| {
             let subs = base.sections_where(|section| section.is_sub_object() && is_free(section));
-            let lost = subs.into_iter().filter(|section| section.sub_index() > Some(1)).filter_map(|section| {
-                let number = base.object(section.index()?)?.entry("SubNumber")?;
-                Some(Mutant::of(base).delete_section(section).expect(number.line))
-            });
+            let lost =
+                subs.into_iter().filter(|section| section.sub_index() > Some(1)).filter_map(|section| {
+                    let number = base.object(section.index()?)?.entry("SubNumber")?;
+                    Some(Mutant::of(base).delete_section(section).expect(number.line))
+                });
             lost.collect()
         }),
         Defect::new("OBJ010", "the section of an ARRAY or RECORD is lost", |base| {
@@ -79,7 +83,8 @@ fn structure() -> Vec<Defect> {
             let lost = objects.into_iter().filter_map(|section| {
                 let index = section.index()?;
                 let subs = base.sub_objects(index).len();
-                let mutant = Mutant::of(base).delete_section(base.sub_object(index, 0)?).expect(section.header);
+                let mutant =
+                    Mutant::of(base).delete_section(base.sub_object(index, 0)?).expect(section.header);
                 Some(mutant.set_too(section.entry("SubNumber")?, &(subs - 1).to_string()))
             });
             lost.collect()
@@ -101,7 +106,7 @@ fn numbers() -> Vec<Defect> {
             let objects = base.sections_where(Section::has_sub_objects);
             let lost = objects.into_iter().filter_map(|section| {
                 let index = section.index()?;
-                let highest = base.sub_object(index, 0).filter(|highest| is_fixed_highest(highest))?;
+                let highest = base.sub_object(index, 0).filter(|highest| is_full_highest(highest))?;
                 let value = highest.entry("DefaultValue")?;
                 let last = base.sub_objects(index).last()?.value("PDOMapping") == "0";
                 last.then(|| Some(without_last_sub_object(base, index)?.set(value, &value.value)))?
@@ -109,7 +114,8 @@ fn numbers() -> Vec<Defect> {
             lost.collect()
         }),
         Defect::new("OBJ015", "an element of an ARRAY with another type", |base| {
-            let subs = base.sections_where(|section| section.sub_index() > Some(1) && is_element(base, section));
+            let subs =
+                base.sections_where(|section| section.sub_index() > Some(1) && is_element(base, section));
             let entries = subs.into_iter().filter_map(|section| section.entry("DataType"));
             let other = |old: Option<i64>| if old == Some(6) { "0x0003" } else { "0x0006" };
             entries.map(|entry| Mutant::of(base).set(entry, other(entry.number()))).collect()
@@ -120,9 +126,11 @@ fn numbers() -> Vec<Defect> {
         value("OBJ026", "a limit above the last described entry", "HighLimit", is_plain_highest, "200"),
         Defect::new("OBJ027", "a sub-index counted in decimal", |base| {
             let objects = base.sections_where(|section| section.has_sub_objects() && is_free(section));
-            let lasts = objects.into_iter().filter_map(|section| base.sub_objects(section.index()?).last().copied());
+            let lasts =
+                objects.into_iter().filter_map(|section| base.sub_objects(section.index()?).last().copied());
             let free = lasts.filter(|last| last.value("PDOMapping") == "0");
-            free.map(|last| Mutant::of(base).rewrite(last.header, format!("[{}sub100]", &last.name[..4]))).collect()
+            free.map(|last| Mutant::of(base).rewrite(last.header, format!("[{}sub100]", &last.name[..4])))
+                .collect()
         }),
     ]
 }
@@ -134,9 +142,8 @@ fn compact() -> Vec<Defect> {
             let objects = base.sections_where(is_compact);
             let entries = ["ParameterName=One", "ObjectType=0x7", "DataType=0x0006", "AccessType=rw"];
             let name = |section: &Section| format!("{}sub1", section.name);
-            let more = |section: &Section| {
-                Mutant::of(base).insert_section(section.end, &name(section), &entries)
-            };
+            let more =
+                |section: &Section| Mutant::of(base).insert_section(section.end, &name(section), &entries);
             objects.into_iter().map(more).collect()
         })
         .by_label(),
@@ -144,7 +151,8 @@ fn compact() -> Vec<Defect> {
         missing("OBJ017", "no number of compact names", "NrOfEntries", is_compact_list),
         value("OBJ017", "fewer compact sub-objects than names", "CompactSubObj", is_compact, "1").by_label(),
         Defect::new("OBJ017", "names of an object that is not compact", |base| {
-            let objects = base.sections_where(|section| section.has_sub_objects() && section.is_of_manufacturer());
+            let objects =
+                base.sections_where(|section| section.has_sub_objects() && section.is_of_manufacturer());
             let name = |section: &Section| format!("{}Name", section.name);
             let list = |section: &Section| {
                 Mutant::of(base).append_section(&name(section), &["NrOfEntries=1", "1=One"])
@@ -165,7 +173,8 @@ fn flags() -> Vec<Defect> {
         added("OBJ019", "ObjFlags of 0", is_object_variable, "ObjFlags=0x0"),
         missing("OBJ020", "store or restore without ObjFlags", "ObjFlags", Section::is_sub_object),
         Defect::new("OBJ025", "an object with the name of another", |base| {
-            let objects = base.sections_where(|section| section.is_object() && !section.is_within(0x1200, 0x1BFF));
+            let objects =
+                base.sections_where(|section| section.is_object() && !section.is_within(0x1200, 0x1BFF));
             let pairs = objects.windows(2).filter_map(|pair| {
                 let name = pair[1].entry("ParameterName")?;
                 Some(Mutant::of(base).set(name, pair[0].value("ParameterName")))
@@ -181,7 +190,9 @@ fn links() -> Vec<Defect> {
         value("OBJ021", "a link to an object that is not described", "1", is_links, "0x5FF0"),
         value("OBJ021", "a wrong number of links", "ObjectLinks", is_links, "5"),
         missing("OBJ021", "no number of links", "ObjectLinks", is_links),
-        header("OBJ021", "links of an object that is not described", is_links, |_| "[5FF0ObjectLinks]".to_owned()),
+        header("OBJ021", "links of an object that is not described", is_links, |_| {
+            "[5FF0ObjectLinks]".to_owned()
+        }),
     ]
 }
 
@@ -200,7 +211,13 @@ fn mapping() -> Vec<Defect> {
     ]
 }
 
-const HIGHEST: &[&str] = &["ParameterName=Highest sub-index", "ObjectType=0x7", "DataType=0x0005", "AccessType=ro", "DefaultValue=1"];
+const HIGHEST: &[&str] = &[
+    "ParameterName=Highest sub-index",
+    "ObjectType=0x7",
+    "DataType=0x0005",
+    "AccessType=ro",
+    "DefaultValue=1",
+];
 
 fn is_description(section: &Section) -> bool {
     section.index().is_some()
@@ -242,10 +259,10 @@ fn is_fixed_highest(section: &Section) -> bool {
         && !section.is_within(0x1A00, 0x1BFF)
 }
 
-/// Sub-index 00h of an object that has no element for each node, of which some may be left out.
+/// The same of no ARRAY of the communication profile, which may leave elements out.
 fn is_full_highest(section: &Section) -> bool {
-    let of_nodes = [0x1016, 0x1F81];
-    is_fixed_highest(section) && section.index().is_some_and(|index| !of_nodes.contains(&index))
+    let is_record = section.is_within(0x1018, 0x1018) || section.is_within(0x1200, 0x1BFF);
+    is_fixed_highest(section) && (is_record || !section.is_within(0x1000, 0x1FFF))
 }
 
 fn is_unlimited_highest(section: &Section) -> bool {
@@ -265,16 +282,21 @@ fn is_free(section: &Section) -> bool {
 /// An ARRAY or RECORD on which no other rule depends.
 fn is_free_object(base: &Base, section: &Section) -> bool {
     let is_mapped = |index| base.sub_objects(index).iter().any(|sub| sub.value("PDOMapping") == "1");
-    section.has_sub_objects() && section.is_of_manufacturer() && section.index().is_some_and(|index| !is_mapped(index))
+    section.has_sub_objects()
+        && section.is_of_manufacturer()
+        && section.index().is_some_and(|index| !is_mapped(index))
 }
 
 fn is_element(base: &Base, section: &Section) -> bool {
     let array = section.index().and_then(|index| base.object(index));
-    array.is_some_and(|array| array.is_code(8) && array.is_of_manufacturer()) && section.value("PDOMapping") == "1"
+    array.is_some_and(|array| array.is_code(8) && array.is_of_manufacturer())
+        && section.value("PDOMapping") == "1"
 }
 
 fn is_record_of_cia301(section: &Section) -> bool {
-    section.is_object() && section.is_code(9) && (section.is_within(0x1018, 0x1018) || section.is_within(0x1200, 0x1BFF))
+    section.is_object()
+        && section.is_code(9)
+        && (section.is_within(0x1018, 0x1018) || section.is_within(0x1200, 0x1BFF))
 }
 
 fn is_array_of_cia301(section: &Section) -> bool {

@@ -59,7 +59,9 @@ fn types() -> Vec<Defect> {
         value("PDO010", "a transmission type of 252 at an RPDO", "DefaultValue", is_rpdo_type, "252"),
         value("PDO010", "a transmission type of 253 at an RPDO", "DefaultValue", is_rpdo_type, "253"),
         Defect::new("PDO011", "a TPDO on request that allows no request", |base| {
-            let types = base.sections_where(|section| section.sub_index() == Some(2) && section.is_within(0x1800, 0x19FF));
+            let types = base.sections_where(|section| {
+                section.sub_index() == Some(2) && section.is_within(0x1800, 0x19FF)
+            });
             let wrong = types.into_iter().filter_map(|section| {
                 let id = base.sub_object(section.index()?, 1)?.value("DefaultValue");
                 let forbids = id.contains("0x4") || id.contains("0xC");
@@ -74,12 +76,17 @@ fn types() -> Vec<Defect> {
 fn timers() -> Vec<Defect> {
     vec![
         value("PDO015", "a SYNC start value of 241", "DefaultValue", is_sync_start, "241"),
-        value_of("PDO015", "a SYNC start value without effect", "DefaultValue", is_tpdo_type, |section, _| {
-            (section.number("DefaultValue") == Some(1)).then(|| "254".to_owned())
-        })
+        value_of(
+            "PDO015",
+            "a SYNC start value without effect",
+            "DefaultValue",
+            is_tpdo_type,
+            |section, _| (section.number("DefaultValue") == Some(1)).then(|| "254".to_owned()),
+        )
         .by_label(),
         Defect::new("PDO016", "an event timer of a synchronous TPDO", |base| {
-            let types = base.sections_where(|section| is_tpdo_type(section) && section.number("DefaultValue") == Some(1));
+            let types = base
+                .sections_where(|section| is_tpdo_type(section) && section.number("DefaultValue") == Some(1));
             let wrong = types.into_iter().filter_map(|section| {
                 let timer = base.sub_object(section.index()?, 5)?.entry("DefaultValue")?;
                 Some(Mutant::of(base).set(timer, "100"))
@@ -103,7 +110,8 @@ fn timers() -> Vec<Defect> {
 fn information() -> Vec<Defect> {
     vec![
         once("PDO017", "objects for PDOs, but no PDO", |base| {
-            let tables = base.sections_where(|section| section.is_object() && section.is_within(0x1400, 0x1BFF));
+            let tables =
+                base.sections_where(|section| section.is_object() && section.is_within(0x1400, 0x1BFF));
             let info = base.section("DeviceInfo")?;
             let granularity = info.entry("Granularity")?;
             let section = base.section("2000").filter(|section| section.value("PDOMapping") == "0")?;
@@ -123,7 +131,8 @@ fn information() -> Vec<Defect> {
         once("PDO024", "CompactPDO, but as many PDOs as described", |base| {
             let compact = base.entry("DeviceInfo", "CompactPDO")?;
             let count = |key, first| {
-                let described = base.sections_where(|section| section.is_object() && section.is_within(first, first + 0x1FF));
+                let described = base
+                    .sections_where(|section| section.is_object() && section.is_within(first, first + 0x1FF));
                 Some((base.entry("DeviceInfo", key)?, described.len().to_string()))
             };
             let (rpdos, tpdos) = (count("NrOfRXPDO", 0x1400)?, count("NrOfTXPDO", 0x1800)?);
@@ -131,7 +140,8 @@ fn information() -> Vec<Defect> {
             Some(mutant.expect(compact.line))
         }),
         Defect::new("PDO025", "a COB-ID that cannot be switched off", |base| {
-            let ids = base.sections_where(|section| is_communication_entry(section) && section.sub_index() == Some(1));
+            let ids = base
+                .sections_where(|section| is_communication_entry(section) && section.sub_index() == Some(1));
             let used = ids.into_iter().filter(|section| super::cob_id::is_used(section));
             let fixed = used.filter_map(|section| {
                 let access = section.entry("AccessType").filter(|access| access.value == "rw")?;

@@ -52,7 +52,8 @@ fn entries() -> Vec<Defect> {
             let wide = map.entries.iter().all(|entry| entry.value.ends_with("20"));
             let other = if map.index < 0x1800 { "0x20100110" } else { "0x20110110" };
             let count = (map.entries.len() + 1).to_string();
-            (wide && last.value.len() == 10).then(|| Mutant::of(base).set_too(map.count, &count).set(free, other))
+            (wide && last.value.len() == 10)
+                .then(|| Mutant::of(base).set_too(map.count, &count).set(free, other))
         }),
         mapping("PDO005", "a length in bytes", |base, map| {
             let entry = map.entries.iter().find(|entry| entry.value.ends_with("10"))?;
@@ -78,8 +79,10 @@ fn targets() -> Vec<Defect> {
             base.section("SupportedModules").is_none().then(|| "0x5FF00010".to_owned())
         }),
         target("PDO004", "a mapped sub-index that is not described", |_, base| {
-            let array = base.sections_where(|section| section.has_sub_objects() && section.is_of_manufacturer());
-            Some(format!("0x{}FE08", array.first()?.name))
+            let array =
+                base.sections_where(|section| section.has_sub_objects() && section.is_of_manufacturer());
+            let array = array.first().filter(|_| base.section("SupportedModules").is_none())?;
+            Some(format!("0x{}FE08", array.name))
         }),
         target("PDO006", "a mapped object with PDOMapping=0", |_, base| {
             entry_for(base, |section| section.value("AccessType") == "rw" && section.is_type(6))
@@ -89,11 +92,13 @@ fn targets() -> Vec<Defect> {
         })
         .by_label(),
         target("PDO007", "an object to be read in an RPDO", |index, base| {
-            let is_input = |section: &Section| is_process_data(section) && section.value("AccessType") == "ro";
+            let is_input =
+                |section: &Section| is_process_data(section) && section.value("AccessType") == "ro";
             entry_for(base, is_input).filter(|_| index < 0x1800)
         }),
         target("PDO007", "an object to be written in a TPDO", |index, base| {
-            let is_output = |section: &Section| is_process_data(section) && section.value("AccessType") == "rww";
+            let is_output =
+                |section: &Section| is_process_data(section) && section.value("AccessType") == "rww";
             entry_for(base, is_output).filter(|_| index >= 0x1800)
         }),
         mapping("PDO007", "access `ro` of an object in an RPDO", |base, map| {
@@ -109,7 +114,8 @@ fn targets() -> Vec<Defect> {
             Some(format!("0x{}0008", domain.first()?.name))
         }),
         mapping("PDO021", "a bit where bytes can be mapped", |base, map| {
-            let flag = base.sections_where(|section| section.is_object() && section.is_type(1)).first().copied()?;
+            let flag =
+                base.sections_where(|section| section.is_object() && section.is_type(1)).first().copied()?;
             let mapped = map.entries.last().filter(|_| map.index >= 0x1800)?;
             let mutant = Mutant::of(base).set_too(flag.entry("PDOMapping")?, "1");
             Some(mutant.set(mapped, &format!("0x{}0001", flag.name)))
@@ -120,7 +126,8 @@ fn targets() -> Vec<Defect> {
 
 /// A mapping entry that names the first object that `wanted` picks.
 fn entry_for(base: &Base, wanted: fn(&Section) -> bool) -> Option<String> {
-    let sections = base.sections_where(|section| section.is_variable() && section.sub_index() != Some(0) && wanted(section));
+    let sections = base
+        .sections_where(|section| section.is_variable() && section.sub_index() != Some(0) && wanted(section));
     let section = sections.iter().find(|section| section.is_within(0x2000, 0x9FFF))?;
     let bits = match section.number("DataType")? {
         1 => 1,
@@ -145,7 +152,9 @@ fn mapped_object<'a>(base: &'a Base, entry: &Entry) -> Option<&'a Section> {
 
 fn dummies() -> Vec<Defect> {
     vec![
-        target("PDO008", "a dummy that is not allowed", |index, _| (index < 0x1800).then(|| "0x00070020".to_owned())),
+        target("PDO008", "a dummy that is not allowed", |index, _| {
+            (index < 0x1800).then(|| "0x00070020".to_owned())
+        }),
         once("PDO008", "a dummy that is not allowed any more", |base| {
             let used = base.sections().iter().any(|section| section.value("DefaultValue") == "0x00050008");
             let allowed = base.entry("DummyUsage", "Dummy0005").filter(|_| used)?;
@@ -153,16 +162,27 @@ fn dummies() -> Vec<Defect> {
         })
         .by_label(),
         target("PDO009", "a dummy in a TPDO", |index, _| (index >= 0x1800).then(|| "0x00050008".to_owned())),
-        target("PDO009", "a dummy with a sub-index", |index, _| (index < 0x1800).then(|| "0x00050108".to_owned())),
-        target("PDO009", "a dummy of another length", |index, _| (index < 0x1800).then(|| "0x00050010".to_owned())),
+        target("PDO009", "a dummy with a sub-index", |index, _| {
+            (index < 0x1800).then(|| "0x00050108".to_owned())
+        }),
+        target("PDO009", "a dummy of another length", |index, _| {
+            (index < 0x1800).then(|| "0x00050010".to_owned())
+        }),
     ]
 }
 
 fn rights() -> Vec<Defect> {
     vec![
-        value("PDO020", "entries that can be written, but not their number", "AccessType", is_writable_count, "ro"),
+        value(
+            "PDO020",
+            "entries that can be written, but not their number",
+            "AccessType",
+            is_writable_count,
+            "ro",
+        ),
         Defect::new("PDO020", "a number that can be written, but no entry", |base| {
-            let counts = base.sections_where(|section| is_count(section) && section.value("AccessType") == "ro");
+            let counts =
+                base.sections_where(|section| is_count(section) && section.value("AccessType") == "ro");
             let entries = counts.into_iter().filter_map(|section| section.entry("AccessType"));
             entries.map(|entry| Mutant::of(base).set(entry, "rw")).collect()
         }),

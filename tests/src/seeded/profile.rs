@@ -35,7 +35,8 @@ pub(super) fn defects() -> Vec<Defect> {
             Some(Mutant::of(base).set(base.entry("1000", "DefaultValue")?, "0x00000191"))
         })
         .by_label(),
-        value("PRF005", "a drive that calls itself an encoder", "DefaultValue", is_drive_type, "0x00020196").by_label(),
+        value("PRF005", "a drive that calls itself an encoder", "DefaultValue", is_drive_type, "0x00020196")
+            .by_label(),
     ]
 }
 
@@ -56,7 +57,13 @@ fn sub_object_gone(kind: &'static str, index: u16) -> Defect {
 
 fn sub_object_more(kind: &'static str, index: u16, sub_index: u8) -> Defect {
     once("PRF004", kind, move |base| {
-        let entries = ["ParameterName=One more", "ObjectType=0x7", "DataType=0x0005", "AccessType=ro", "DefaultValue=0"];
+        let entries = [
+            "ParameterName=One more",
+            "ObjectType=0x7",
+            "DataType=0x0005",
+            "AccessType=ro",
+            "DefaultValue=0",
+        ];
         with_sub_object(base, index, sub_index, &entries)
     })
 }

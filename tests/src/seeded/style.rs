@@ -9,7 +9,8 @@ pub(super) fn defects() -> Vec<Defect> {
         Defect::new("STY001", "an object before the one with the lower index", |base| {
             let sections = base.sections();
             let pairs = sections.windows(2).filter(|pair| {
-                pair.iter().all(|section| section.is_object() && section.is_code(7)) && pair[0].end + 1 == pair[1].header
+                pair.iter().all(|section| section.is_object() && section.is_code(7))
+                    && pair[0].end + 1 == pair[1].header
             });
             pairs.map(|pair| swapped(base, &pair[0], &pair[1])).collect()
         }),
@@ -28,7 +29,8 @@ pub(super) fn defects() -> Vec<Defect> {
         Defect::new("STY002", "small hexadecimal digits among capital ones", |base| {
             let values = base.sections().iter().filter_map(|section| section.entry("DefaultValue"));
             let hexadecimal = values.filter(|entry| {
-                entry.value.starts_with("0x") && entry.value.bytes().skip(2).any(|byte| byte.is_ascii_uppercase())
+                entry.value.starts_with("0x")
+                    && entry.value.bytes().skip(2).any(|byte| byte.is_ascii_uppercase())
             });
             hexadecimal.map(|entry| Mutant::of(base).set(entry, &entry.value.to_ascii_lowercase())).collect()
         }),
@@ -38,9 +40,13 @@ pub(super) fn defects() -> Vec<Defect> {
         }),
         Defect::new("STY003", "blanks at the end of a line", |base| {
             let entries = base.sections().iter().flat_map(|section| &section.entries);
-            entries.map(|entry| Mutant::of(base).rewrite(entry.line, format!("{}={}  ", entry.key, entry.value))).collect()
+            entries
+                .map(|entry| Mutant::of(base).rewrite(entry.line, format!("{}={}  ", entry.key, entry.value)))
+                .collect()
         }),
-        once("STY003", "no line break at the end", |base| Some(Mutant::of(base).end_line(base.lines.len() - 1, ""))),
+        once("STY003", "no line break at the end", |base| {
+            Some(Mutant::of(base).end_line(base.lines.len() - 1, ""))
+        }),
         value("STY004", "an order code that is still to do", "OrderCode", |_| true, "TBD"),
         value("STY004", "a vendor's name from a form", "VendorName", |_| true, "<vendor name>"),
         value("STY004", "a name that is still to do", "ParameterName", Section::is_object, "unknown"),

@@ -29,9 +29,13 @@ fn foreign_files() -> Vec<Defect> {
 
 fn characters() -> Vec<Defect> {
     vec![
-        value_of("SYN001", "a letter in UTF-8 beyond ASCII", "ParameterName", Section::is_object, |_, old| {
-            Some(format!("{old} \u{FC}"))
-        }),
+        value_of(
+            "SYN001",
+            "a letter in UTF-8 beyond ASCII",
+            "ParameterName",
+            Section::is_object,
+            |_, old| Some(format!("{old} \u{FC}")),
+        ),
         Defect::new("SYN001", "a letter in Latin-1 beyond ASCII", |base| {
             let latin1 = |text: &str| text.chars().map(|letter| letter as u8).collect();
             let names = base.sections_where(|section| section.entry("VendorName").is_some());
@@ -93,7 +97,14 @@ fn lines() -> Vec<Defect> {
                 mutant.delete(pair[1].header)
             });
             joined.collect()
-        }),
+        })
+        .with_consequence("COM013", SWALLOWED)
+        .with_consequence("PDO001", SWALLOWED)
+        .with_consequence("PDO004", SWALLOWED)
+        .with_consequence("PDO018", SWALLOWED)
+        .with_consequence("PDO026", SWALLOWED)
+        .with_consequence("SYN017", SWALLOWED)
+        .with_consequence("VAL002", SWALLOWED),
         Defect::new("SYN009", "a blank before the `=`", |base| {
             entries(base, |key, value| format!("{key} = {value}"))
         }),
@@ -106,6 +117,9 @@ fn lines() -> Vec<Defect> {
     ]
 }
 
+const SWALLOWED: &str =
+    "until the line break is back, a section is gone and its values belong to another one";
+
 fn comments() -> Vec<Defect> {
     vec![
         line_before("SYN010", "blanks before a comment", |_| true, "  ; the next one"),
@@ -116,24 +130,44 @@ fn comments() -> Vec<Defect> {
         }),
         line_before("SYN027", "a suppression without a finding", |_| true, ";edskit: allow(SYN013) copied"),
         line_before("SYN027", "a suppression of an unknown rule", |_| true, ";edskit: allow(OBJ999) copied"),
-        value_of("SYN012", "a comment behind a data type", "DataType", |_| true, |_, old| {
-            Some(format!("{old} ; as measured"))
-        }),
-        value_of("SYN012", "a comment behind an access type", "AccessType", |_| true, |_, old| {
-            Some(format!("{old} # by SDO"))
-        }),
-        value_of("SYN012", "a comment behind a flag", "PDOMapping", |_| true, |_, old| {
-            Some(format!("{old} ;no"))
-        }),
-        value_of("SYN012", "a comment behind a number", "SubNumber", |_| true, |_, old| {
-            Some(format!("{old}\t; with sub0"))
-        }),
+        value_of(
+            "SYN012",
+            "a comment behind a data type",
+            "DataType",
+            |_| true,
+            |_, old| Some(format!("{old} ; as measured")),
+        ),
+        value_of(
+            "SYN012",
+            "a comment behind an access type",
+            "AccessType",
+            |_| true,
+            |_, old| Some(format!("{old} # by SDO")),
+        ),
+        value_of(
+            "SYN012",
+            "a comment behind a flag",
+            "PDOMapping",
+            |_| true,
+            |_, old| Some(format!("{old} ;no")),
+        ),
+        value_of(
+            "SYN012",
+            "a comment behind a number",
+            "SubNumber",
+            |_| true,
+            |_, old| Some(format!("{old}\t; with sub0")),
+        ),
         value_of("SYN012", "a comment behind a default value", "DefaultValue", is_integer, |_, old| {
             Some(format!("{old} ; factory setting"))
         }),
-        value_of("SYN012", "a comment behind a date", "CreationDate", |_| true, |_, old| {
-            Some(format!("{old} ; a Monday"))
-        }),
+        value_of(
+            "SYN012",
+            "a comment behind a date",
+            "CreationDate",
+            |_| true,
+            |_, old| Some(format!("{old} ; a Monday")),
+        ),
     ]
 }
 
@@ -184,9 +218,12 @@ fn names() -> Vec<Defect> {
             let mutant = |line| Mutant::of(base).insert_section(line, "ToolState", &["Window=3"]);
             sections.skip(1).map(|section| mutant(section.header)).collect()
         }),
-        header("SYN023", "a misspelt section", |section| MISSPELT_SECTIONS.contains(&&*section.name), |section| {
-            format!("[{}]", section.name.replacen('m', "n", 1))
-        }),
+        header(
+            "SYN023",
+            "a misspelt section",
+            |section| MISSPELT_SECTIONS.contains(&&*section.name),
+            |section| format!("[{}]", section.name.replacen('m', "n", 1)),
+        ),
         added("SYN024", "a key that CiA 306 does not know", |section| !section.is_list(), "Colour=red"),
         misspelt("LowLimit", "LowLimt"),
         misspelt("DefaultValue", "DefualtValue"),
@@ -243,9 +280,7 @@ fn again(base: &Base, section: &Section, name: String) -> Mutant {
 fn doubled(base: &Base, keys: &[&str], second: fn(&str, &str) -> String) -> Vec<Mutant> {
     let entries = base.sections().iter().flat_map(|section| &section.entries);
     let wanted = entries.filter(|entry| keys.contains(&&*entry.key));
-    wanted
-        .map(|entry| Mutant::of(base).insert(entry.line + 1, second(&entry.key, &entry.value)))
-        .collect()
+    wanted.map(|entry| Mutant::of(base).insert(entry.line + 1, second(&entry.key, &entry.value))).collect()
 }
 
 /// Every entry, written otherwise.

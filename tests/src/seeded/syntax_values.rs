@@ -32,7 +32,13 @@ fn numbers() -> Vec<Defect> {
         value("SYN017", "a word for the node-ID", "NodeID", any, "five"),
         value("SYN017", "a unit behind the bit rate", "Baudrate", any, "250k"),
         value("SYN017", "a word for the number of comments", "Lines", any, "two"),
-        value("SYN017", "a connected module in words", "1", |section| section.name == "ConnectedModules", "DI-8"),
+        value(
+            "SYN017",
+            "a connected module in words",
+            "1",
+            |section| section.name == "ConnectedModules",
+            "DI-8",
+        ),
         value("SYN017", "a word for the number of nodes", "Nodes", any, "three"),
         value_of("SYN018", "a leading zero at a default value", "DefaultValue", is_integer, |section, _| {
             (section.is_of_manufacturer() && section.sub_index() != Some(0)).then(|| "010".to_owned())
@@ -48,13 +54,27 @@ fn numbers() -> Vec<Defect> {
 
 fn texts() -> Vec<Defect> {
     vec![
-        value_of("SYN019", "a name in quotes", "ParameterName", |_| true, |_, old| Some(format!("\"{old}\""))),
-        value_of("SYN019", "the vendor's name in quotes", "VendorName", |_| true, |_, old| {
-            Some(format!("\"{old}\""))
-        }),
-        value_of("SYN019", "a text value in quotes", "DefaultValue", |section| section.is_type(9), |_, old| {
-            Some(format!("\"{old}\""))
-        }),
+        value_of(
+            "SYN019",
+            "a name in quotes",
+            "ParameterName",
+            |_| true,
+            |_, old| Some(format!("\"{old}\"")),
+        ),
+        value_of(
+            "SYN019",
+            "the vendor's name in quotes",
+            "VendorName",
+            |_| true,
+            |_, old| Some(format!("\"{old}\"")),
+        ),
+        value_of(
+            "SYN019",
+            "a text value in quotes",
+            "DefaultValue",
+            |section| section.is_type(9),
+            |_, old| Some(format!("\"{old}\"")),
+        ),
     ]
 }
 
@@ -78,9 +98,7 @@ fn formulas() -> Vec<Defect> {
 
 /// Formulas, written otherwise.
 fn formula(rule: &'static str, kind: &'static str, new: fn(&str) -> String) -> Defect {
-    value_of(rule, kind, "DefaultValue", |_| true, move |_, old| {
-        old.strip_prefix("$NODEID+").map(new)
-    })
+    value_of(rule, kind, "DefaultValue", |_| true, move |_, old| old.strip_prefix("$NODEID+").map(new))
 }
 
 fn is_integer(section: &Section) -> bool {

@@ -13,8 +13,15 @@ fn types() -> Vec<Defect> {
         value("VAL001", "a reserved data type", "DataType", is_value, "0x0017"),
         value("VAL001", "a data type of 0", "DataType", is_value, "0x0000"),
         value("VAL001", "an index for a data type", "DataType", is_value, "0x6040"),
-        value("VAL001", "a record type for a value", "DataType", is_value, "0x0021"),
-        value("VAL001", "a type of the manufacturer that is not described", "DataType", is_own_value, "0x0040"),
+        value("VAL001", "a record type for a value", "DataType", is_value, "0x0021")
+            .with_consequence("PDO019", "a PDO may map the value, and a record fits no PDO"),
+        value(
+            "VAL001",
+            "a type of the manufacturer that is not described",
+            "DataType",
+            is_own_value,
+            "0x0040",
+        ),
         value("VAL001", "a reserved data type of compact sub-objects", "DataType", is_compact, "0x0017"),
     ]
 }
@@ -30,14 +37,30 @@ fn ranges() -> Vec<Defect> {
         value("VAL002", "-32769 in an INTEGER16", "DefaultValue", is_integer16, "-32769"),
         value("VAL002", "2147483648 in an INTEGER32", "DefaultValue", is_integer32, "2147483648"),
         value("VAL002", "a configured value beyond its type", "ParameterValue", is_unsigned16, "70000"),
-        value("VAL002", "a configured value of more than 32 bits", "ParameterValue", is_unsigned32, "0x1000000000"),
+        value(
+            "VAL002",
+            "a configured value of more than 32 bits",
+            "ParameterValue",
+            is_unsigned32,
+            "0x1000000000",
+        ),
         value("VAL002", "a compact value beyond its type", "1", is_value_list, "70000"),
         value("VAL002", "a compact value that is negative", "2", is_value_list, "-1"),
         added("VAL002", "an upper limit beyond the type", is_unlimited_unsigned16, "HighLimit=70000"),
-        value("VAL002", "a default of compact sub-objects beyond their type", "DefaultValue", is_compact, "70000"),
-        value_of("VAL002", "a type without a sign for a negative value", "DataType", is_integer16, |section, _| {
-            section.value("DefaultValue").starts_with('-').then(|| "0x0006".to_owned())
-        })
+        value(
+            "VAL002",
+            "a default of compact sub-objects beyond their type",
+            "DefaultValue",
+            is_compact,
+            "70000",
+        ),
+        value_of(
+            "VAL002",
+            "a type without a sign for a negative value",
+            "DataType",
+            is_integer16,
+            |section, _| section.value("DefaultValue").starts_with('-').then(|| "0x0006".to_owned()),
+        )
         .by_label(),
         Defect::new("VAL011", "a constant without a value", |base| {
             let constants = base.sections_where(is_constant_number).into_iter();
@@ -66,9 +89,13 @@ fn limits() -> Vec<Defect> {
         value_of("VAL004", "a default below the lower limit", "DefaultValue", has_low_limit, |section, _| {
             Some((section.number("LowLimit")? - 1).to_string())
         }),
-        value_of("VAL004", "a configured value above the upper limit", "ParameterValue", has_limits, |section, _| {
-            Some((section.number("HighLimit")? + 1).to_string())
-        }),
+        value_of(
+            "VAL004",
+            "a configured value above the upper limit",
+            "ParameterValue",
+            has_limits,
+            |section, _| Some((section.number("HighLimit")? + 1).to_string()),
+        ),
         value_of("VAL004", "an upper limit below the default", "HighLimit", has_limits, |section, _| {
             let below = section.number("DefaultValue")? - 1;
             (below >= section.number("LowLimit")?).then(|| below.to_string())
@@ -96,11 +123,23 @@ fn formulas() -> Vec<Defect> {
         value("VAL006", "a formula at a BOOLEAN", "DefaultValue", |section| section.is_type(1), "$NODEID+1"),
         value("VAL006", "a formula at a REAL32", "DefaultValue", |section| section.is_type(8), "$NODEID+1"),
         value("VAL006", "a formula at a text", "DefaultValue", |section| section.is_type(9), "$NODEID"),
-        value("VAL006", "a formula at an octet string", "DefaultValue", |section| section.is_type(0xA), "$NODEID"),
+        value(
+            "VAL006",
+            "a formula at an octet string",
+            "DefaultValue",
+            |section| section.is_type(0xA),
+            "$NODEID",
+        ),
         value("VAL007", "a formula above 8 bits", "DefaultValue", is_own_unsigned8, "$NODEID+0xFF"),
         value("VAL007", "a formula above 16 bits", "DefaultValue", is_own_unsigned16, "$NODEID+0xFFFF"),
         value("VAL007", "a formula above 32 bits", "DefaultValue", is_own_unsigned32, "$NODEID+0xFFFFFFFF"),
-        value("VAL007", "a formula above the 8 bits of an INTEGER8", "DefaultValue", is_integer8, "$NODEID+0xFF"),
+        value(
+            "VAL007",
+            "a formula above the 8 bits of an INTEGER8",
+            "DefaultValue",
+            is_integer8,
+            "$NODEID+0xFF",
+        ),
     ]
 }
 
@@ -115,7 +154,13 @@ fn texts() -> Vec<Defect> {
         value("VAL010", "a negative INTEGER8 in hexadecimal", "DefaultValue", is_integer8, "0xFE"),
         value("VAL010", "a negative INTEGER16 in hexadecimal", "DefaultValue", is_integer16, "0xFFF0"),
         value("VAL010", "a negative INTEGER32 in hexadecimal", "DefaultValue", is_integer32, "0xFFFFFFF0"),
-        value("VAL010", "a REAL32 in hexadecimal", "DefaultValue", |section| section.is_type(8), "0x3FC00000"),
+        value(
+            "VAL010",
+            "a REAL32 in hexadecimal",
+            "DefaultValue",
+            |section| section.is_type(8),
+            "0x3FC00000",
+        ),
         value("VAL013", "a decimal comma at a REAL32", "DefaultValue", |section| section.is_type(8), "1,5"),
         value("VAL013", "a unit behind a REAL64", "DefaultValue", |section| section.is_type(0x11), "0.02 s"),
         value("VAL013", "a limit of a REAL32 in words", "HighLimit", |section| section.is_type(8), "maximum"),
@@ -131,7 +176,10 @@ fn is_value(section: &Section) -> bool {
 
 /// A single value whose type nothing else prescribes.
 fn is_own_value(section: &Section) -> bool {
-    is_value(section) && section.is_of_manufacturer() && section.is_object() && section.value("PDOMapping") == "0"
+    is_value(section)
+        && section.is_of_manufacturer()
+        && section.is_object()
+        && section.value("PDOMapping") == "0"
 }
 
 fn is_compact(section: &Section) -> bool {
@@ -192,5 +240,7 @@ fn has_low_limit(section: &Section) -> bool {
 }
 
 fn is_constant_number(section: &Section) -> bool {
-    section.value("AccessType") == "const" && matches!(section.number("DataType"), Some(2..=7))
+    section.is_variable()
+        && section.value("AccessType") == "const"
+        && matches!(section.number("DataType"), Some(2..=7))
 }

@@ -55,7 +55,9 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(field) = variable.data_type else { return };
     let Some(data_type) = field.known().map(Index).filter(|&index| is_data_type(index)) else { return };
     // A record type on a single value is the matter of VAL001.
-    if variable.holds_value() && variable.standard_type.is_some_and(|known| known.kind() == DataTypeKind::Record) {
+    if variable.holds_value()
+        && variable.standard_type.is_some_and(|known| known.kind() == DataTypeKind::Record)
+    {
         return;
     }
     for prescribed in variable.prescribed() {

@@ -104,7 +104,10 @@ mod tests {
             found("NrOfEntries=3\n1=1\n2="),
             ["2:13 error: NrOfEntries is 3, but `[ConnectedModules]` has 1 item"]
         );
-        assert_eq!(found("NrOfEntries=2\n1=1\n3=1"), ["4:1 error: `[ConnectedModules]` has an item 3, but no item 2"]);
+        assert_eq!(
+            found("NrOfEntries=2\n1=1\n3=1"),
+            ["4:1 error: `[ConnectedModules]` has an item 3, but no item 2"]
+        );
         assert_eq!(found("1=1\n2=1"), ["1:1 error: `[ConnectedModules]` has 2 items, but no `NrOfEntries`"]);
         assert_eq!(
             fixed(&MODULE_LIST_COUNT, "[M1SubExtends]\nNrOfEntries=0\n1=0x6000\n"),

@@ -50,7 +50,10 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         return;
     }
     report
-        .add(place_of(variable.description.section(), KeyName::AccessType), format!("{} has no AccessType", variable.place()))
+        .add(
+            place_of(variable.description.section(), KeyName::AccessType),
+            format!("{} has no AccessType", variable.place()),
+        )
         .help("write `AccessType=` with `ro`, `wo`, `rw`, `rwr`, `rww` or `const`");
 }
 

@@ -121,7 +121,9 @@ mod tests {
     #[test]
     fn types_that_do_not_exist_and_arrays_of_cia_301_are_left_to_their_rules() {
         let array = |index: &str, second: &str| {
-            let text = format!("[{index}]\nObjectType=8\n[{index}sub1]\nDataType=7\n[{index}sub2]\nDataType={second}\n");
+            let text = format!(
+                "[{index}]\nObjectType=8\n[{index}sub1]\nDataType=7\n[{index}sub2]\nDataType={second}\n"
+            );
             findings(&ARRAY_MIXED_TYPES, &text)
         };
         for second in ["0x17", "0", "0x6040", "0x21"] {

@@ -52,7 +52,8 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         return;
     }
     let section = variable.description.section();
-    let finding = report.add(place_of(section, KeyName::DataType), format!("{} has no DataType", variable.place()));
+    let finding =
+        report.add(place_of(section, KeyName::DataType), format!("{} has no DataType", variable.place()));
     if variable.sub_index == Some(SubIndex(0)) {
         finding
             .help("write `DataType=0x0005`: sub-index 00h is UNSIGNED8")

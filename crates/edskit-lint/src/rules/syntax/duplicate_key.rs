@@ -129,7 +129,8 @@ mod tests {
 
     #[test]
     fn what_follows_a_lost_header_is_no_repetition() {
-        let text = "[1000]\nParameterName=a\nPDOMapping=0[1001]\nParameterName=b\n[1002]\nDataType=5\nDataType=6\n";
+        let text =
+            "[1000]\nParameterName=a\nPDOMapping=0[1001]\nParameterName=b\n[1002]\nDataType=5\nDataType=6\n";
         assert_eq!(findings(&DUPLICATE_KEY, text).len(), 1);
     }
 

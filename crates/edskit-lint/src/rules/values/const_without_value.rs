@@ -67,13 +67,11 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     if variable.standard_type.is_some_and(|data_type| is_data(data_type.kind())) {
         return;
     }
-    let finding =
-        report.add(access.span(), format!("{} is constant, but has no value", variable.place()));
+    let finding = report.add(access.span(), format!("{} is constant, but has no value", variable.place()));
     if let Some(empty) = variable.description.section().entry(KeyName::DefaultValue) {
         finding.label(empty.span(), "empty, which counts as missing");
     }
-    finding
-        .help("add a `DefaultValue`, or write `AccessType=ro` if the value differs from device to device");
+    finding.help("add a `DefaultValue`, or write `AccessType=ro` if the value differs from device to device");
 }
 
 #[cfg(test)]
