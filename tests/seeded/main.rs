@@ -34,11 +34,11 @@ fn every_defect_is_caught() {
 }
 
 #[test]
-fn every_kind_has_a_place() {
+fn every_kind_has_several_places() {
     let bases = bases();
     for defect in defects() {
         let places: usize = bases.iter().map(|base| defect.mutants(base).len()).sum();
-        assert!(places > 0, "{}: {} has no place in any base", defect.rule, defect.kind);
+        assert!(places > 1, "{}: {} has {places} places", defect.rule, defect.kind);
     }
 }
 

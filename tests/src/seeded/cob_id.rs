@@ -51,9 +51,12 @@ pub(super) fn defects() -> Vec<Defect> {
             let other = if section.is_within(0x1400, 0x15FF) { "$NODEID+0x500" } else { "$NODEID+0x480" };
             Some(other.to_owned())
         }),
-        once("COB007", "a fifth PDO that is in use", |base| {
-            let id = base.sub_object(0x1804, 1)?.entry("DefaultValue")?;
-            Some(Mutant::of(base).set(id, "$NODEID+0x1C0"))
+        Defect::new("COB007", "a PDO from the fifth on that is in use", |base| {
+            let is_id =
+                |section: &Section| section.sub_index() == Some(1) && section.is_within(0x1804, 0x19FF);
+            let ids =
+                base.sections_where(is_id).into_iter().filter_map(|section| section.entry("DefaultValue"));
+            ids.map(|id| Mutant::of(base).set(id, "$NODEID+0x1C0")).collect()
         }),
         sender("COB008", "a TPDO of two nodes with one CAN-ID", |base| {
             let id = base.sub_object(0x1800, 1)?;

@@ -70,9 +70,13 @@ fn entries_of_eds() -> Vec<Defect> {
             };
             objects.into_iter().map(list).collect()
         }),
-        once("DCF005", "connected modules in an EDS", |base| {
-            let line = base.section("M1ModuleInfo").filter(|_| base.kind == Kind::Eds)?.header;
-            Some(Mutant::of(base).insert_section(line, "ConnectedModules", &["NrOfEntries=1", "1=1"]))
+        Defect::new("DCF005", "connected modules in an EDS", |base| {
+            let is_info = |section: &Section| base.kind == Kind::Eds && section.name.ends_with("ModuleInfo");
+            let infos = base.sections_where(is_info).into_iter();
+            let entries = ["NrOfEntries=1", "1=1"];
+            infos
+                .map(|info| Mutant::of(base).insert_section(info.header, "ConnectedModules", &entries))
+                .collect()
         }),
     ]
 }
@@ -116,11 +120,14 @@ fn configured() -> Vec<Defect> {
             "ro",
         )
         .by_label(),
-        once("DCF007", "an UploadFile of an object that cannot be read", |base| {
-            let section = base.sections_where(has_download).first().copied()?;
-            let mutant =
-                Mutant::of(base).rewrite(section.entry("DownloadFile")?.line, "UploadFile=motion.tab");
-            Some(mutant.set_too(section.entry("AccessType")?, "wo"))
+        Defect::new("DCF007", "an UploadFile of an object that cannot be read", |base| {
+            let sections = base.sections_where(has_download).into_iter();
+            let changed = sections.filter_map(|section| {
+                let line = section.entry("DownloadFile")?.line;
+                let mutant = Mutant::of(base).rewrite(line, "UploadFile=motion.tab");
+                Some(mutant.set_too(section.entry("AccessType")?, "wo"))
+            });
+            changed.collect()
         }),
         value("DCF008", "the COB-ID of another node", "ParameterValue", is_own_pdo, "0x207"),
         value("DCF008", "the COB-ID of another node's TPDO", "ParameterValue", is_own_tpdo, "0x40000187"),

@@ -60,6 +60,19 @@ pub(crate) fn value(
     value_of(rule, kind, key, wanted, move |_, _| Some(new.to_owned()))
 }
 
+/// The items of the lists that `wanted` picks get another value.
+pub(crate) fn item(
+    rule: &'static str,
+    kind: &'static str,
+    wanted: fn(&Section) -> bool,
+    new: &'static str,
+) -> Defect {
+    Defect::new(rule, kind, move |base| {
+        let items = base.sections_where(wanted).into_iter().flat_map(Section::items);
+        items.map(|item| Mutant::of(base).set(item, new)).collect()
+    })
+}
+
 /// The entries with this key get the value that `new` makes of the section and the old one.
 pub(crate) fn value_of(
     rule: &'static str,

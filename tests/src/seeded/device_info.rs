@@ -112,10 +112,11 @@ fn others() -> Vec<Defect> {
             let granularity = base.entry("DeviceInfo", "Granularity")?;
             (access == "rw").then(|| Mutant::of(base).set(granularity, "0"))
         }),
-        once("DEV009", "a granularity of 8, but no mapping can be written", |base| {
-            let access = base.sub_object(0x1A00, 0)?.value("AccessType");
-            let granularity = base.entry("DeviceInfo", "Granularity")?;
-            (access != "rw").then(|| Mutant::of(base).set(granularity, "8"))
+        Defect::new("DEV009", "a granularity above 0, but no mapping can be written", |base| {
+            let is_fixed = base.sub_object(0x1A00, 0).is_some_and(|count| count.value("AccessType") != "rw");
+            let granularity = base.entry("DeviceInfo", "Granularity").filter(|_| is_fixed);
+            let values = ["1", "8", "16"].into_iter();
+            values.filter_map(|value| Some(Mutant::of(base).set(granularity?, value))).collect()
         }),
         value_of("DEV012", "dynamic channels without their section", DYNAMIC, is_info, |_, old| {
             (old == "0").then(|| "1".to_owned())

@@ -1,7 +1,7 @@
 //! MOD: modular devices.
 
 use super::base::Section;
-use super::defect::{Defect, missing, once, value, value_of};
+use super::defect::{Defect, item, missing, once, value, value_of};
 use super::dictionary::without_object;
 use super::mutant::Mutant;
 
@@ -98,7 +98,7 @@ fn values() -> Vec<Defect> {
         value("MOD002", "a Count in words", "Count", |_| true, "one"),
         value("MOD002", "a Count of sub-indices and bits", "Count", |_| true, "1;4"),
         missing("MOD002", "no Count", "Count", |_| true),
-        value("MOD002", "a connected module that does not exist", "1", is_connected, "9"),
+        item("MOD002", "a connected module that does not exist", is_connected, "9"),
         value(
             "MOD008",
             "a module with another data type of the object",

@@ -36,7 +36,11 @@ fn nodes() -> Vec<Defect> {
         }),
         added("CPJ003", "a node 0", is_topology, "Node0Present=0x00"),
         added("CPJ003", "a node 128", is_topology, "Node128Name=Spare"),
-        value("CPJ004", "a node that is present with 2", "Node7Present", is_topology, "0x02"),
+        Defect::new("CPJ004", "a node that is present with 2", |base| {
+            let entries = base.sections().iter().flat_map(|section| &section.entries);
+            let absent = entries.filter(|entry| entry.key.ends_with("Present") && entry.number() == Some(0));
+            absent.map(|entry| Mutant::of(base).set(entry, "0x02")).collect()
+        }),
         value_of("CPJ004", "a node that is present with 255", "Node6Present", is_topology, |_, _| {
             Some("0xFF".to_owned())
         })

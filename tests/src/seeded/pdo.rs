@@ -109,14 +109,12 @@ fn timers() -> Vec<Defect> {
 
 fn information() -> Vec<Defect> {
     vec![
-        once("PDO017", "objects for PDOs, but no PDO", |base| {
-            let tables =
-                base.sections_where(|section| section.is_object() && section.is_within(0x1400, 0x1BFF));
-            let info = base.section("DeviceInfo")?;
-            let granularity = info.entry("Granularity")?;
-            let section = base.section("2000").filter(|section| section.value("PDOMapping") == "0")?;
-            let mappable = section.entry("PDOMapping")?;
-            (tables.is_empty() && granularity.value == "0").then(|| Mutant::of(base).set(mappable, "1"))
+        Defect::new("PDO017", "objects for PDOs, but no PDO", |base| {
+            let is_pdo = |section: &Section| section.is_object() && section.is_within(0x1400, 0x1BFF);
+            let has_pdos = !base.sections_where(is_pdo).is_empty();
+            let variables = base.sections_where(|section| !has_pdos && section.is_of_manufacturer());
+            let entries = variables.into_iter().filter_map(|section| section.entry("PDOMapping"));
+            entries.map(|entry| Mutant::of(base).set(entry, "1")).collect()
         }),
         value("PDO022", "group messaging without a multiplexed PDO", "GroupMessaging", |_| true, "1"),
         once("PDO022", "a multiplexed PDO without group messaging", |base| {

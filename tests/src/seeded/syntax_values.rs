@@ -1,7 +1,7 @@
 //! SYN: numbers, texts and formulas.
 
 use super::base::{Section, number};
-use super::defect::{Defect, value, value_of};
+use super::defect::{Defect, item, value, value_of};
 
 pub(super) fn defects() -> Vec<Defect> {
     [numbers(), texts(), formulas()].into_iter().flatten().collect()
@@ -32,13 +32,7 @@ fn numbers() -> Vec<Defect> {
         value("SYN017", "a word for the node-ID", "NodeID", any, "five"),
         value("SYN017", "a unit behind the bit rate", "Baudrate", any, "250k"),
         value("SYN017", "a word for the number of comments", "Lines", any, "two"),
-        value(
-            "SYN017",
-            "a connected module in words",
-            "1",
-            |section| section.name == "ConnectedModules",
-            "DI-8",
-        ),
+        item("SYN017", "a connected module in words", |section| section.name == "ConnectedModules", "DI-8"),
         value("SYN017", "a word for the number of nodes", "Nodes", any, "three"),
         value_of("SYN018", "a leading zero at a default value", "DefaultValue", is_integer, |section, _| {
             (section.is_of_manufacturer() && section.sub_index() != Some(0)).then(|| "010".to_owned())

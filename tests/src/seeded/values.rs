@@ -1,7 +1,7 @@
 //! VAL: data types and values.
 
 use super::base::Section;
-use super::defect::{Defect, added, value, value_of};
+use super::defect::{Defect, added, item, value, value_of};
 use super::mutant::Mutant;
 
 pub(super) fn defects() -> Vec<Defect> {
@@ -44,8 +44,8 @@ fn ranges() -> Vec<Defect> {
             is_unsigned32,
             "0x1000000000",
         ),
-        value("VAL002", "a compact value beyond its type", "1", is_value_list, "70000"),
-        value("VAL002", "a compact value that is negative", "2", is_value_list, "-1"),
+        item("VAL002", "a compact value beyond its type", is_value_list, "70000"),
+        item("VAL002", "a compact value that is negative", is_value_list, "-1"),
         added("VAL002", "an upper limit beyond the type", is_unlimited_unsigned16, "HighLimit=70000"),
         value(
             "VAL002",

@@ -13,6 +13,7 @@ rule! {
     /// Collects what the present nodes of a network send, by the DCFs that the nodelist names: their TPDOs in use,
     /// EMCY, SDO answers and heartbeats, each at the node-ID of the nodelist, and compares it with each other and with
     /// SYNC and TIME. Two producers of SYNC or of TIME are reported too. Without the DCFs it says nothing.
+    /// A node that has the DCF of another one is left to CPJ002.
     ///
     /// ## Why is this bad
     /// When both send at the same time, the frames destroy each other and both nodes go off the bus in the end.

@@ -13,7 +13,7 @@ rule! {
     /// Compares the CAN-IDs of all messages in use: PDOs, SYNC, TIME, EMCY (its own and those it listens to), SDO
     /// channels, its heartbeat and those it monitors. Two RPDOs may share one. In an EDS only what collides at every
     /// node-ID is reported. An RPDO that listens to another message of its own device, and an SDO client of its own
-    /// server, are warnings: such values are there to be changed.
+    /// server, are warnings: such values are there to be changed. EMCY at the bare 80h is left to COB002.
     ///
     /// ## Why is this bad
     /// Whoever receives such a frame cannot tell which of the two it is, and two nodes that send it at once destroy it.

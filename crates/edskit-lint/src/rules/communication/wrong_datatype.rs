@@ -10,8 +10,8 @@ rule! {
     ///
     /// ## What it does
     /// Reports a data type that differs from what CiA 301, the device profile named by 1000h, or a profile given with
-    /// `--profile` prescribes. Outside the communication area it is a warning. Sub-index 00h is left to OBJ013, and an
-    /// index that is no data type at all to VAL001.
+    /// `--profile` prescribes. Outside the communication area it is a warning. Sub-index 00h is left to OBJ013, and to
+    /// VAL001 an index that is no data type at all, and a record type on a single value.
     ///
     /// ## Why is this bad
     /// A master that knows the profile transfers as many bytes as it prescribes. With another length the device

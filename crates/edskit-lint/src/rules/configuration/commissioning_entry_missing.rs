@@ -85,8 +85,8 @@ mod tests {
         assert_eq!(
             findings_in(&COMMISSIONING_ENTRY_MISSING, "a.dcf", text.as_bytes()),
             [
-                "2:1 warning: `[DeviceComissioning]` has no `NodeID`",
-                "1:1 info: `[DeviceComissioning]` has no `NodeName`, `NetworkName` or `LSS_SerialNumber`"
+                "1:1 info: `[DeviceComissioning]` has no `NodeName`, `NetworkName` or `LSS_SerialNumber`",
+                "2:1 warning: `[DeviceComissioning]` has no `NodeID`"
             ]
         );
         assert!(findings(&COMMISSIONING_ENTRY_MISSING, text).is_empty());

@@ -8,6 +8,7 @@ rule! {
     /// ## What it does
     /// Reports a `Count` that is neither a number of sub-indices (`2`) nor `0;` and a number of bits (`0;4`), a
     /// `[MxSubExt...]` without `Count`, and an item of `[ConnectedModules]` that is not the number of a module.
+    /// A module that is described, but not counted, is left to MOD001.
     ///
     /// ## Why is this bad
     /// A tool cannot tell which sub-indices the module adds, or which module is plugged in.

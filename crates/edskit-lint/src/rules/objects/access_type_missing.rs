@@ -69,7 +69,7 @@ mod tests {
         assert_eq!(
             findings(&ACCESS_TYPE_MISSING, text),
             [
-                "3:1 error: 2000h sub-index 01h has no AccessType",
+                "4:1 error: 2000h sub-index 01h has no AccessType",
                 "9:1 error: 2003h has no AccessType",
                 "14:1 error: 2005h has no AccessType"
             ]

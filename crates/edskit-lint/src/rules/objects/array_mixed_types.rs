@@ -9,6 +9,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports an ARRAY in which an element from sub-index 01h on has another data type than the one before it.
+    /// The ARRAYs of CiA 301 are left to COM002, and types that no element can have to VAL001.
     ///
     /// ## Why is this bad
     /// All elements of an ARRAY have one type; elements of different types make a RECORD. Tools that take the type of

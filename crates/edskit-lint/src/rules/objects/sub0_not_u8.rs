@@ -7,7 +7,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports a sub-index 00h, which holds the highest sub-index of an ARRAY or RECORD, with another data type than
-    /// UNSIGNED8 (0005h).
+    /// UNSIGNED8 (0005h). That of 1004h, which old editions define with 32 bits, is left to COM019.
     ///
     /// ## Why is this bad
     /// The structure of an ARRAY and a RECORD fixes the type. A master that reads sub-index 00h expects one byte.
