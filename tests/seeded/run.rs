@@ -3,6 +3,7 @@
 use edskit_lint::{FileKind, Finding, Linter, Neighbours, RuleSet, Severity};
 use edskit_model::Datasheet;
 use edskit_tests::seeded::{Base, Defect, Mutant};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// What became of one kind of defect.
@@ -22,12 +23,14 @@ pub(crate) fn run(defect: &Defect, bases: &[Base]) -> Run {
     let mut rules = RuleSet::default();
     rules.select(defect.rule).expect("defects name rules that exist");
     let linter = Linter::new(rules);
+    let mut followed = BTreeSet::new();
     let mut run = Run { rule: defect.rule, mutants: 0, caught: 0, failures: Vec::new() };
     for base in bases {
         for mutant in defect.mutants(base) {
             run.mutants += 1;
             let report = Report::of(&linter, &base.name, &mutant);
             let found = report.is_caught(defect, &mutant);
+            followed.extend(report.findings.iter().map(|finding| finding.rule.code));
             run.caught += usize::from(found);
             let unrelated = report.unrelated_errors(defect);
             if !found || !unrelated.is_empty() {
@@ -46,6 +49,9 @@ pub(crate) fn run(defect: &Defect, bases: &[Base]) -> Run {
                 ));
             }
         }
+    }
+    for (rule, _) in defect.consequences.iter().filter(|(rule, _)| !followed.contains(rule)) {
+        run.failures.push(format!("{} {}: {rule} never follows", defect.rule, defect.kind));
     }
     run
 }

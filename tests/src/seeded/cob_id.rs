@@ -8,10 +8,8 @@ pub(super) fn defects() -> Vec<Defect> {
     vec![
         pdo("COB001", "a PDO at the CAN-ID of NMT", |_| Some("0x0".to_owned())),
         pdo("COB001", "a PDO at the base 180h", |_| Some("0x180".to_owned())),
-        pdo("COB001", "a PDO at the CAN-ID of an SDO", |_| Some("$NODEID+0x580".to_owned()))
-            .with_consequence("COB003", "the SDO server sends there"),
-        emcy("COB001", "EMCY at a heartbeat's CAN-ID", "$NODEID+0x700")
-            .with_consequence("COB003", "the heartbeat is sent there"),
+        pdo("COB001", "a PDO at the CAN-ID of an SDO", |_| Some("$NODEID+0x580".to_owned())),
+        emcy("COB001", "EMCY at a heartbeat's CAN-ID", "$NODEID+0x700"),
         pdo_of_eds("COB002", "a PDO with the bare base", |section| {
             let base = predefined(section).filter(|base| *base > 0x180)?;
             Some(format!("0x{base:X}"))
@@ -32,8 +30,7 @@ pub(super) fn defects() -> Vec<Defect> {
             let new = if id.key == "DefaultValue" { "$NODEID+0x80".to_owned() } else { own(base, 0x80)? };
             Some(Mutant::of(base).set(id, &new))
         })
-        .by_label()
-        .with_consequence("COB001", "81h to FFh are restricted"),
+        .by_label(),
         pdo("COB004", "bits above 11 without the frame bit", |section| {
             Some(format!("0x{:08X}", 0x1000 + predefined(section)? + 5))
         }),

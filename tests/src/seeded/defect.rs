@@ -6,27 +6,30 @@ use super::mutant::Mutant;
 /// How many places of one kind are taken from a base, evenly spread over it.
 pub const MOST_PLACES: usize = 8;
 
+/// Finds all places in a base, and gives the base with the defect for each.
+type Places = dyn Fn(&Base) -> Vec<Mutant>;
+
 /// One kind of defect.
 pub struct Defect {
     /// The rule that has to report it, by its code.
     pub rule: &'static str,
     /// What is wrong, in words.
-    pub kind: &'static str,
+    pub kind: String,
     /// Whether the rule points at the other end of the contradiction, and gives the mutated line a label.
     pub by_label: bool,
     /// Errors of other rules that cannot but follow, each with the reason.
     pub consequences: Vec<(&'static str, &'static str)>,
-    places: Box<dyn Fn(&Base) -> Vec<Mutant>>,
+    places: Box<Places>,
 }
 
 impl Defect {
     /// A defect at each of the places that `places` finds in a base.
     pub fn new(
         rule: &'static str,
-        kind: &'static str,
+        kind: impl Into<String>,
         places: impl Fn(&Base) -> Vec<Mutant> + 'static,
     ) -> Self {
-        Self { rule, kind, by_label: false, consequences: Vec::new(), places: Box::new(places) }
+        Self { rule, kind: kind.into(), by_label: false, consequences: Vec::new(), places: Box::new(places) }
     }
 
     /// The rule points at the other end of the contradiction, and gives the mutated line a label.
@@ -95,7 +98,7 @@ pub(crate) fn value_of(
 /// The sections that `wanted` picks lose an entry; the finding is expected at their header.
 pub(crate) fn missing(
     rule: &'static str,
-    kind: &'static str,
+    kind: impl Into<String>,
     key: &'static str,
     wanted: fn(&Section) -> bool,
 ) -> Defect {

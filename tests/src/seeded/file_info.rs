@@ -25,8 +25,7 @@ fn sections() -> Vec<Defect> {
 }
 
 fn lost(key: &'static str) -> Defect {
-    let kind = format!("no {key}");
-    missing("FIL002", Box::leak(kind.into_boxed_str()), key, is_info)
+    missing("FIL002", format!("no {key}"), key, is_info)
 }
 
 fn versions() -> Vec<Defect> {

@@ -165,8 +165,7 @@ fn indices() -> Vec<Defect> {
                 .into_iter()
                 .filter(|(_, item)| item.value.bytes().skip(2).all(|byte| byte.is_ascii_digit()));
             items.map(|(_, item)| Mutant::of(base).set(item, &item.value[2..])).collect()
-        })
-        .with_consequence("LST007", "an index that is read otherwise names another object"),
+        }),
     ]
 }
 

@@ -62,8 +62,7 @@ fn structure() -> Vec<Defect> {
                 Some(Mutant::of(base).delete_section(section).expect(first.header))
             });
             lost.collect()
-        })
-        .with_consequence("LST004", "the list names an object that is not described any more"),
+        }),
         Defect::new("OBJ010", "sub-objects of an object that is not there", |base| {
             let lists = base.sections_where(|section| section.name == "ManufacturerObjects");
             lists.into_iter().map(|_| Mutant::of(base).append_section("5FF0sub0", HIGHEST)).collect()

@@ -103,7 +103,6 @@ fn lines() -> Vec<Defect> {
         .with_consequence("PDO004", SWALLOWED)
         .with_consequence("PDO018", SWALLOWED)
         .with_consequence("PDO026", SWALLOWED)
-        .with_consequence("SYN017", SWALLOWED)
         .with_consequence("VAL002", SWALLOWED),
         Defect::new("SYN009", "a blank before the `=`", |base| {
             entries(base, |key, value| format!("{key} = {value}"))
@@ -242,7 +241,7 @@ fn names() -> Vec<Defect> {
 const MISSPELT_SECTIONS: &[&str] = &["Comments", "DummyUsage"];
 
 fn misspelt(key: &'static str, wrong: &'static str) -> Defect {
-    Defect::new("SYN024", Box::leak(format!("the misspelt key {wrong}").into_boxed_str()), move |base| {
+    Defect::new("SYN024", format!("the misspelt key {wrong}"), move |base| {
         let entries = base.sections().iter().filter_map(|section| section.entry(key));
         let mutant = |entry: &Entry| Mutant::of(base).rewrite(entry.line, format!("{wrong}={}", entry.value));
         entries.map(mutant).collect()
