@@ -36,6 +36,8 @@ pub struct Context<'a> {
     cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
     /// The sections whose headers stand behind other text, sorted, once a rule has asked for them.
     hidden_sections: OnceCell<Vec<SectionKind>>,
+    /// Whether there are modules, once a rule has asked.
+    modular: OnceCell<bool>,
 }
 
 impl<'a> Context<'a> {
@@ -52,6 +54,7 @@ impl<'a> Context<'a> {
             pdos: OnceCell::new(),
             cob_ids: OnceCell::new(),
             hidden_sections: OnceCell::new(),
+            modular: OnceCell::new(),
         }
     }
 
@@ -110,7 +113,9 @@ impl<'a> Context<'a> {
     /// `PDOMapping` for mapping entries and so on may name objects that only modules bring.
     pub fn is_modular(&self) -> bool {
         let is_of_module = |section: Section<'_>| matches!(section.kind(), SectionKind::Module(..));
-        self.sheet.supported_modules().is_some() || self.sheet.other_sections().any(is_of_module)
+        *self.modular.get_or_init(|| {
+            self.sheet.supported_modules().is_some() || self.sheet.other_sections().any(is_of_module)
+        })
     }
 }
 
