@@ -5,6 +5,7 @@ pub mod field_report;
 mod folder;
 pub mod hostile;
 pub mod picture;
+pub mod seeded;
 
 pub use command::{Output, edskit, edskit_with_input};
 pub use folder::Folder;

@@ -5,9 +5,13 @@ use crate::odd_lines::{self, OddLine};
 use crate::pdos::{self, DescribedPdo};
 use crate::profile::{Applied, Prescribed, Prescription, Profile};
 use crate::rules::cob_id::JudgedCobId;
+use crate::rules::syntax::lost_header;
 use crate::{FileKind, Finding, Label, Neighbours, Rule};
 use core::cell::{OnceCell, RefCell};
-use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
+use edskit_model::{
+    Datasheet, Description, Document, Entry, Field, KeyName, Section, SectionKind, Span, Value,
+    ValueErrorKind,
+};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
 /// The file that is linted.
@@ -32,6 +36,10 @@ pub struct Context<'a> {
     cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
     /// Rules that have said once for the whole file what they find.
     said: RefCell<Vec<&'static Rule>>,
+    /// The sections whose headers stand behind other text, sorted, once a rule has asked for them.
+    hidden_sections: OnceCell<Vec<SectionKind>>,
+    /// Whether there are modules, once a rule has asked.
+    modular: OnceCell<bool>,
 }
 
 impl<'a> Context<'a> {
@@ -48,6 +56,8 @@ impl<'a> Context<'a> {
             pdos: OnceCell::new(),
             cob_ids: OnceCell::new(),
             said: RefCell::default(),
+            hidden_sections: OnceCell::new(),
+            modular: OnceCell::new(),
         }
     }
 
@@ -92,6 +102,12 @@ impl<'a> Context<'a> {
         is_first
     }
 
+    /// The sections whose headers stand behind other text, sorted: SYN008 reports the lost line break, so that other
+    /// rules do not report its consequences.
+    pub(crate) fn hidden_sections(&self) -> &[SectionKind] {
+        self.hidden_sections.get_or_init(|| lost_header::hidden(self))
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()
@@ -109,7 +125,10 @@ impl<'a> Context<'a> {
 
     /// `PDOMapping` for mapping entries and so on may name objects that only modules bring.
     pub fn is_modular(&self) -> bool {
-        self.sheet.supported_modules().is_some()
+        let is_of_module = |section: Section<'_>| matches!(section.kind(), SectionKind::Module(..));
+        *self.modular.get_or_init(|| {
+            self.sheet.supported_modules().is_some() || self.sheet.other_sections().any(is_of_module)
+        })
     }
 }
 

@@ -1,6 +1,8 @@
 use super::structure::needs_attributes;
+use crate::missing::place_of;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
+use edskit_model::KeyName;
 
 rule! {
     /// A value has no access type
@@ -50,7 +52,10 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         return;
     }
     report
-        .add(variable.description.section().span(), format!("{} has no AccessType", variable.place()))
+        .add(
+            place_of(variable.description.section(), KeyName::AccessType),
+            format!("{} has no AccessType", variable.place()),
+        )
         .help("write `AccessType=` with `ro`, `wo`, `rw`, `rwr`, `rww` or `const`");
 }
 
@@ -67,7 +72,7 @@ mod tests {
         assert_eq!(
             findings(&ACCESS_TYPE_MISSING, text),
             [
-                "3:1 error: 2000h sub-index 01h has no AccessType",
+                "5:1 error: 2000h sub-index 01h has no AccessType",
                 "10:1 error: 2003h has no AccessType",
                 "15:1 error: 2005h has no AccessType"
             ]

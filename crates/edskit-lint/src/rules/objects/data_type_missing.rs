@@ -1,7 +1,9 @@
 use super::structure::needs_attributes;
 use crate::edits::add_lines;
+use crate::missing::place_of;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
+use edskit_model::KeyName;
 use edskit_types::SubIndex;
 
 rule! {
@@ -52,7 +54,8 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     }
     let section = variable.description.section();
     let what = if variable.access_type.is_some() { "no DataType" } else { "neither DataType nor AccessType" };
-    let finding = report.add(section.span(), format!("{} has {what}", variable.place()));
+    let finding =
+        report.add(place_of(section, KeyName::DataType), format!("{} has {what}", variable.place()));
     if variable.sub_index == Some(SubIndex(0)) {
         finding
             .help("write `DataType=0x0005`: sub-index 00h is UNSIGNED8")
@@ -76,7 +79,7 @@ mod tests {
             findings(&DATA_TYPE_MISSING, text),
             [
                 "3:1 error: 2000h sub-index 00h has neither DataType nor AccessType",
-                "11:1 error: 2003h has no DataType",
+                "12:1 error: 2003h has no DataType",
                 "14:1 error: 2004h has no DataType",
                 "20:1 error: 2006h has neither DataType nor AccessType"
             ]

@@ -1,14 +1,14 @@
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
 use edskit_model::{Field, Value};
-use edskit_types::{DataType, SubIndex};
+use edskit_types::{DataType, Index, SubIndex};
 
 rule! {
     /// Sub-index 00h is not UNSIGNED8
     ///
     /// ## What it does
     /// Reports a sub-index 00h, which holds the highest sub-index of an ARRAY or RECORD, with another data type than
-    /// UNSIGNED8 (0005h).
+    /// UNSIGNED8 (0005h). That of 1004h, which old editions define with 32 bits, is left to COM019.
     ///
     /// ## Why is this bad
     /// The structure of an ARRAY and a RECORD fixes the type. A master that reads sub-index 00h expects one byte.
@@ -42,7 +42,8 @@ rule! {
 }
 
 fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    if variable.sub_index != Some(SubIndex(0)) {
+    // Sub-index 00h of 1004h, which old editions have, holds two numbers of PDOs in 32 bits; see COM019.
+    if variable.sub_index != Some(SubIndex(0)) || variable.index == Index(0x1004) {
         return;
     }
     let Some(field) = variable.data_type else { return };
@@ -77,6 +78,7 @@ mod tests {
                 "4:10 error: sub-index 00h of 2001h is 0x40 instead of UNSIGNED8"
             ]
         );
+        assert!(findings(&SUB0_NOT_U8, "[1004sub0]\nDataType=7\n").is_empty());
         assert_eq!(fixed(&SUB0_NOT_U8, "[2000sub0]\nDataType=2\n"), "[2000sub0]\nDataType=0x0005\n");
     }
 
