@@ -1,7 +1,7 @@
 //! An interface of the Linux kernel.
 
 use crate::{Bus, BusError, Event, Received, SendError, system_now};
-use ::socketcan::{CanFrame, CanSocket, EmbeddedFrame, Frame as _, Socket, SocketOptions};
+use ::socketcan::{CanFrame, CanSocket, EmbeddedFrame, Socket, SocketOptions};
 use edskit_runtime::{Frame, Instant};
 use std::collections::VecDeque;
 use std::io;

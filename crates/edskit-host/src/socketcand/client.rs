@@ -52,7 +52,7 @@ fn frame(id: &[u8], digits: &[u8]) -> Option<Frame> {
     }?;
     let mut data = [0; MOST_DATA];
     let length = digits.len() / 2;
-    if digits.len() % 2 != 0 || length > MOST_DATA {
+    if !digits.len().is_multiple_of(2) || length > MOST_DATA {
         return None;
     }
     for (place, pair) in data.iter_mut().zip(digits.chunks(2)) {
