@@ -74,7 +74,7 @@ mod tests {
             let (mut ping, mut pong, mut log) = (bus.attach(), bus.attach(), bus.attach());
             let mut recorded = Vec::new();
             let mut asks = |now: Instant| {
-                if now.0 % 1_000 == 0 {
+                if now.0.is_multiple_of(1_000) {
                     ping.send(&Frame::new(CanId::standard(0x601).unwrap(), &[now.0 as u8])).unwrap();
                 }
                 while ping.receive().unwrap().is_some() {}

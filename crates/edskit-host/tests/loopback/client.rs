@@ -1,6 +1,6 @@
 //! Clients against the hub, and against others that answer wrongly or not at all.
 
-use crate::tool::{frame, next, until};
+use crate::tool::{frame, hub, next, until};
 use edskit_host::{Bus, BusError, Client, Event, Hub, HubOptions, SendError, open};
 use edskit_runtime::Frame;
 use edskit_types::CanId;
@@ -9,23 +9,22 @@ use std::net::TcpListener;
 use std::thread;
 use std::time::Duration;
 
-fn hub() -> Hub {
-    Hub::start(&HubOptions::with_free_ports()).unwrap()
-}
-
 fn clients(hub: &Hub) -> (Client, Client) {
-    let socketcand = hub.socketcand_address().unwrap().port();
-    let slcan = hub.slcan_address().unwrap().port();
-    (Client::socketcand("127.0.0.1", socketcand, "can0").unwrap(), Client::slcan("localhost", slcan).unwrap())
+    let socketcand = hub.socketcand_address().expect("the hub listens").port();
+    let slcan = hub.slcan_address().expect("the hub listens").port();
+    (
+        Client::socketcand("127.0.0.1", socketcand, "can0").expect("the hub speaks socketcand"),
+        Client::slcan("localhost", slcan).expect("the hub speaks SLCAN"),
+    )
 }
 
 /// Somebody who says something to the first who comes, and what that one said.
 fn stranger(words: &'static [u8]) -> u16 {
-    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-    let port = listener.local_addr().unwrap().port();
+    let listener = TcpListener::bind("127.0.0.1:0").expect("there are free ports");
+    let port = listener.local_addr().expect("it is bound").port();
     thread::spawn(move || {
-        let (mut stream, _) = listener.accept().unwrap();
-        stream.write_all(words).unwrap();
+        let (mut stream, _) = listener.accept().expect("the client comes");
+        stream.write_all(words).expect("the client is there");
         // Until the client hangs up.
         let _ = stream.read_to_end(&mut Vec::new());
     });

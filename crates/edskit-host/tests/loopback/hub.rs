@@ -1,6 +1,6 @@
 //! The hub over loopback, with tools that speak by hand.
 
-use crate::tool::{Tool, frame, next, until};
+use crate::tool::{Tool, frame, hub, next, until};
 use edskit_host::{Bus, BusError, Event, Hub, HubOptions};
 use edskit_runtime::Frame;
 use edskit_types::CanId;
@@ -9,14 +9,10 @@ use std::net::TcpStream;
 use std::thread;
 use std::time::{Duration, Instant};
 
-fn hub() -> Hub {
-    Hub::start(&HubOptions::with_free_ports()).unwrap()
-}
-
 /// `< frame 60A 1700000000.123456 112233 >` without the time.
 fn without_time(text: &str) -> String {
     let words: Vec<&str> = text.split(' ').collect();
-    let (seconds, rest) = words[3].split_once('.').unwrap();
+    let (seconds, rest) = words[3].split_once('.').expect("a time has a point");
     assert!(seconds.len() >= 10 && rest.len() == 6, "{text}");
     [&words[..3], &words[4..]].concat().join(" ")
 }

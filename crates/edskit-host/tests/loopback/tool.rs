@@ -1,6 +1,6 @@
 //! What the tests over loopback share.
 
-use edskit_host::{Bus, Received, system_now};
+use edskit_host::{Bus, Hub, HubOptions, Received, system_now};
 use edskit_runtime::{Frame, Instant, Microseconds};
 use edskit_types::CanId;
 use std::io::{Read, Write};
@@ -12,18 +12,22 @@ pub(crate) fn patience() -> Instant {
     system_now() + Microseconds::from_milliseconds(10_000)
 }
 
+pub(crate) fn hub() -> Hub {
+    Hub::start(&HubOptions::with_free_ports()).expect("there are free ports")
+}
+
 pub(crate) fn frame(id: u16, data: &[u8]) -> Frame {
-    Frame::new(CanId::standard(id).unwrap(), data)
+    Frame::new(CanId::standard(id).expect("tests use identifiers of 11 bits"), data)
 }
 
 /// The next frame, waited for.
 pub(crate) fn next(bus: &mut impl Bus) -> Frame {
     let deadline = patience();
     while system_now() < deadline {
-        if let Some(Received { frame, .. }) = bus.receive().unwrap() {
+        if let Some(Received { frame, .. }) = bus.receive().expect("the bus stays") {
             return frame;
         }
-        bus.wait(deadline).unwrap();
+        bus.wait(deadline).expect("the bus stays");
     }
     panic!("no frame has come");
 }
@@ -41,8 +45,9 @@ pub(crate) struct Tool(pub(crate) TcpStream);
 
 impl Tool {
     pub(crate) fn new(address: Option<SocketAddr>) -> Self {
-        let stream = TcpStream::connect(address.unwrap()).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+        let stream =
+            TcpStream::connect(address.expect("the hub listens")).expect("the hub takes connections");
+        stream.set_read_timeout(Some(Duration::from_secs(10))).expect("10 s is a time");
         Self(stream)
     }
 
@@ -65,13 +70,13 @@ impl Tool {
     }
 
     pub(crate) fn say(&mut self, words: &str) {
-        self.0.write_all(words.as_bytes()).unwrap();
+        self.0.write_all(words.as_bytes()).expect("the hub reads");
     }
 
     /// What one read gives.
     pub(crate) fn read_once(&mut self) -> String {
         let mut bytes = [0; 256];
-        let count = self.0.read(&mut bytes).unwrap();
+        let count = self.0.read(&mut bytes).expect("the hub writes");
         String::from_utf8_lossy(&bytes[..count]).into_owned()
     }
 
