@@ -58,7 +58,7 @@ pub enum BusError {
         source: io::Error,
     },
     /// An interface of the kernel cannot be opened, or is gone.
-    #[error("SocketCAN interface {interface}: {source}")]
+    #[error("SocketCAN interface {interface}: {source} (`ip link` lists the interfaces)")]
     Interface {
         /// The name of the interface.
         interface: String,

@@ -4,12 +4,13 @@
 use edskit_host::{Bus, BusError, SocketCan, open, system_now};
 use edskit_runtime::{Frame, Microseconds};
 use edskit_types::CanId;
+use std::io::{self, Write};
 
 fn pair() -> Option<(SocketCan, SocketCan)> {
     match (SocketCan::open("vcan0"), SocketCan::open("vcan0")) {
         (Ok(a), Ok(b)) => Some((a, b)),
         (Err(error), _) | (_, Err(error)) => {
-            eprintln!("left out: {error}");
+            let _ = writeln!(io::stderr(), "left out: {error}");
             None
         }
     }

@@ -1,6 +1,6 @@
 //! Keeping a connection.
 
-use super::Greeter;
+use super::greeter::{Greeter, is_timeout};
 use super::protocol::{Incoming, Protocol};
 use crate::address::place;
 use crate::queue::{Queue, Refusal};
@@ -12,7 +12,7 @@ use std::net::{Shutdown, TcpStream, ToSocketAddrs};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, TryRecvError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How many received frames may wait for being taken.
 const MOST_UNTAKEN: usize = 32_768;
@@ -26,7 +26,7 @@ const MOST_AT_ONCE: usize = 256;
 /// How long one address may take for a connection.
 const CONNECTING: Duration = Duration::from_secs(2);
 
-/// How long the other side may take nothing before the connection counts as lost.
+/// How long the other side may leave untaken what was sent before the connection counts as lost.
 const STALLED: Duration = Duration::from_secs(5);
 
 /// How long the other side may take to close a connection that this side has finished.
@@ -57,11 +57,13 @@ impl Shared {
         }
     }
 
-    /// Nothing more is sent than what has been taken.
-    pub(super) fn finish(&self) {
-        if let Some(outbox) = &*self.outbox() {
+    /// Nothing more is sent than what has been taken. Returns whether there is a connection.
+    pub(super) fn finish(&self) -> bool {
+        let outbox = self.outbox();
+        if let Some(outbox) = &*outbox {
             outbox.close();
         }
+        outbox.is_some()
     }
 
     fn outbox(&self) -> MutexGuard<'_, Option<Arc<Queue<Frame>>>> {
@@ -161,6 +163,9 @@ fn converse(shared: &Shared, protocol: &Protocol, stream: &TcpStream) -> String 
             Err(error) => Err(error),
         };
         match (written, read) {
+            (Err(error), _) if is_timeout(&error) => {
+                format!("the other side has not taken what was sent for {} s", STALLED.as_secs())
+            }
             (Err(error), _) | (Ok(()), Err(error)) => error.to_string(),
             (Ok(()), Ok(())) => "closed by the other side".to_owned(),
         }
@@ -186,11 +191,7 @@ fn read_all(shared: &Shared, protocol: &Protocol, mut stream: &TcpStream) -> io:
     }
 }
 
-fn write_all(
-    mut stream: &TcpStream,
-    outbox: &Queue<Frame>,
-    encode: fn(&Frame, &mut Vec<u8>),
-) -> io::Result<()> {
+fn write_all(stream: &TcpStream, outbox: &Queue<Frame>, encode: fn(&Frame, &mut Vec<u8>)) -> io::Result<()> {
     let (mut batch, mut bytes) = (Vec::new(), Vec::new());
     loop {
         outbox.take_batch(&mut batch, MOST_AT_ONCE);
@@ -200,7 +201,24 @@ fn write_all(
         for frame in batch.drain(..) {
             encode(&frame, &mut bytes);
         }
-        stream.write_all(&bytes)?;
+        write(stream, &bytes)?;
         bytes.clear();
     }
+}
+
+/// Writes all bytes. At its time limit the system reports what it could write and not that it could not write all of it,
+/// so that is looked for here.
+fn write(mut stream: &TcpStream, mut bytes: &[u8]) -> io::Result<()> {
+    while !bytes.is_empty() {
+        let start = Instant::now();
+        match stream.write(bytes) {
+            Ok(count) => bytes = bytes.get(count..).unwrap_or_default(),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+        if !bytes.is_empty() && start.elapsed() >= STALLED {
+            return Err(io::ErrorKind::TimedOut.into());
+        }
+    }
+    Ok(())
 }

@@ -75,6 +75,6 @@ impl<'a> Greeter<'a> {
 }
 
 /// Systems differ in what they call it.
-fn is_timeout(error: &io::Error) -> bool {
+pub(super) fn is_timeout(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut)
 }

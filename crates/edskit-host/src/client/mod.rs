@@ -23,8 +23,8 @@ use std::thread::{self, JoinHandle};
 /// Once made, a connection that is lost is made again, after 0.1 s at first and then after twice the time up to 5 s. That
 /// is said once when it is lost and once when it is there again ([`Event`]); in between, frames are refused with
 /// [`SendError::Disconnected`]. Up to 4096 frames wait for being sent, then [`SendError::Full`]; up to 32,768 received ones
-/// wait for being taken, then the oldest are dropped ([`Event::FramesLost`]). A connection whose other side has taken
-/// nothing for 5 s is given up and made again.
+/// wait for being taken, then the oldest are dropped ([`Event::FramesLost`]). A connection whose other side does not take
+/// what is sent for 5 s is given up and made again.
 ///
 /// Dropping it sends what has been taken for sending.
 pub struct Client {
@@ -124,8 +124,10 @@ impl Client {
 impl Drop for Client {
     fn drop(&mut self) {
         self.stop = None;
-        self.shared.finish();
-        if let Some(thread) = self.thread.take() {
+        // Without a connection there is nothing to send, and the thread ends by itself.
+        if self.shared.finish()
+            && let Some(thread) = self.thread.take()
+        {
             // A panic there has nothing to tell here.
             let _ = thread.join();
         }

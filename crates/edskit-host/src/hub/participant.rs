@@ -11,14 +11,15 @@ pub struct HubParticipant {
     board: Arc<Board>,
     seat: Seat,
     inbox: Arc<Queue<Received>>,
-    lost: Option<Event>,
+    /// Frames lost that nobody has been told of.
+    lost: u64,
 }
 
 impl HubParticipant {
     pub(super) fn new(board: &Arc<Board>) -> Self {
         let (seat, inbox) = (board.seat(), Arc::new(Queue::new(MOST_WAITING)));
         board.join(seat, inbox.clone(), true);
-        Self { board: Arc::clone(board), seat, inbox, lost: None }
+        Self { board: Arc::clone(board), seat, inbox, lost: 0 }
     }
 }
 
@@ -28,10 +29,7 @@ impl Bus for HubParticipant {
     }
 
     fn receive(&mut self) -> Result<Option<Received>, BusError> {
-        let lost = self.inbox.take_lost();
-        if lost > 0 {
-            self.lost = Some(Event::FramesLost(lost));
-        }
+        self.lost += self.inbox.take_lost();
         Ok(self.inbox.pop())
     }
 
@@ -46,7 +44,8 @@ impl Bus for HubParticipant {
     }
 
     fn event(&mut self) -> Option<Event> {
-        self.lost.take()
+        let lost = std::mem::take(&mut self.lost);
+        (lost > 0).then_some(Event::FramesLost(lost))
     }
 }
 

@@ -58,7 +58,7 @@ impl Drop for Session {
     }
 }
 
-/// What the reading thread knows. Dropping it takes the client off the board.
+/// What the reading thread knows. Dropping it ends the connection and takes the client off the board.
 struct Client {
     stream: TcpStream,
     board: Arc<Board>,
@@ -94,9 +94,8 @@ impl Client {
         }
         // It ends with the connection; why makes no difference.
         let _ = self.read_all();
-        self.board.leave(self.seat);
-        self.outbox.abort();
-        let _ = self.stream.shutdown(Shutdown::Both);
+        drop(self);
+        // A panic there has nothing to tell here.
         let _ = writer.join();
     }
 
@@ -125,6 +124,9 @@ impl Client {
 impl Drop for Client {
     fn drop(&mut self) {
         self.board.leave(self.seat);
+        self.outbox.abort();
+        // Fails where the client is gone already.
+        let _ = self.stream.shutdown(Shutdown::Both);
         self.board.dismiss();
     }
 }

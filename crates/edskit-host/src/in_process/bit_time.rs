@@ -135,10 +135,14 @@ mod tests {
         /// five bits of a kind at most every fourth brings a further stuff bit.
         #[test]
         fn no_frame_is_shorter_or_longer_than_the_standard_allows(
-            id in 0u32..0x2000_0000, is_extended: bool, data in proptest::collection::vec(any::<u8>(), 0..=8)
+            id in 0u32..0x2000_0000, is_extended: bool, is_remote: bool,
+            data in proptest::collection::vec(any::<u8>(), 0..=8),
         ) {
-            let frame = if is_extended { extended(id, &data) } else { standard((id & 0x7FF) as u16, &data) };
-            let stuffable = if is_extended { 54 } else { 34 } + 8 * data.len() as u32;
+            let mut frame = if is_extended { extended(id, &data) } else { standard((id & 0x7FF) as u16, &data) };
+            if is_remote {
+                frame = Frame::remote(frame.can_id(), data.len() as u8);
+            }
+            let stuffable = if is_extended { 54 } else { 34 } + 8 * frame.data().len() as u32;
             let bits = frame_bits(&frame);
             prop_assert!((stuffable + 13..=stuffable + 13 + (stuffable - 1) / 4).contains(&bits));
         }

@@ -33,7 +33,8 @@ pub struct VirtualBus(Rc<RefCell<Medium>>);
 pub struct Participant {
     bus: VirtualBus,
     number: usize,
-    lost: Option<Event>,
+    /// Frames lost that nobody has been told of.
+    lost: u64,
 }
 
 struct Medium {
@@ -91,7 +92,7 @@ impl VirtualBus {
     pub fn attach(&self) -> Participant {
         let mut medium = self.0.borrow_mut();
         medium.inboxes.push(Inbox::default());
-        Participant { bus: self.clone(), number: medium.inboxes.len() - 1, lost: None }
+        Participant { bus: self.clone(), number: medium.inboxes.len() - 1, lost: 0 }
     }
 
     /// The time on the bus, in microseconds since its making.
@@ -198,10 +199,7 @@ impl Bus for Participant {
     fn receive(&mut self) -> Result<Option<Received>, BusError> {
         let mut medium = self.bus.0.borrow_mut();
         let inbox = &mut medium.inboxes[self.number];
-        let lost = std::mem::take(&mut inbox.lost);
-        if lost > 0 {
-            self.lost = Some(Event::FramesLost(lost));
-        }
+        self.lost += std::mem::take(&mut inbox.lost);
         Ok(inbox.frames.pop_front())
     }
 
@@ -229,7 +227,8 @@ impl Bus for Participant {
     }
 
     fn event(&mut self) -> Option<Event> {
-        self.lost.take()
+        let lost = std::mem::take(&mut self.lost);
+        (lost > 0).then_some(Event::FramesLost(lost))
     }
 }
 

@@ -1,10 +1,10 @@
 //! The side of who attaches to a hub or to a socketcand daemon.
 
-use super::commands::hexadecimal;
+use super::commands::{hexadecimal, identifier};
 use crate::BusError;
 use crate::client::{Greeter, Incoming};
 use edskit_runtime::{Frame, MOST_DATA};
-use edskit_types::{CanId, CobId};
+use edskit_types::CobId;
 use std::io::Write;
 
 /// The name for people.
@@ -44,12 +44,7 @@ pub(crate) fn decode(words: &[&[u8]]) -> Option<Incoming> {
 }
 
 fn frame(id: &[u8], digits: &[u8]) -> Option<Frame> {
-    let raw = hexadecimal(id)?;
-    let can_id = if id.len() > 3 {
-        CanId::extended(raw & CobId::EXTENDED_MASK)
-    } else {
-        CanId::standard(u16::try_from(raw).ok()?)
-    }?;
+    let can_id = identifier(id)?;
     let mut data = [0; MOST_DATA];
     let length = digits.len() / 2;
     if !digits.len().is_multiple_of(2) || length > MOST_DATA {

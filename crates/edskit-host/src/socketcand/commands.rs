@@ -1,5 +1,7 @@
 //! Cutting a stream of bytes into commands.
 
+use edskit_types::{CanId, CobId};
+
 /// The longest command that is understood. The longest useful one has eight sign-extended bytes: about 170 characters.
 const MOST: usize = 512;
 
@@ -33,6 +35,16 @@ impl Commands {
                 _ => {}
             }
         }
+    }
+}
+
+/// An identifier. One of more than three digits is an extended one, whatever its value; it may be sign-extended.
+pub(crate) fn identifier(word: &[u8]) -> Option<CanId> {
+    let number = hexadecimal(word)?;
+    if word.len() > 3 {
+        CanId::extended(number & CobId::EXTENDED_MASK)
+    } else {
+        CanId::standard(u16::try_from(number).ok()?)
     }
 }
 

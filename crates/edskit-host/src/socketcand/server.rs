@@ -1,10 +1,9 @@
 //! The side of the hub.
 
-use super::commands::{Commands, hexadecimal};
+use super::commands::{Commands, hexadecimal, identifier};
 use crate::Received;
 use crate::hub::{Answer, Dialect};
 use edskit_runtime::{Frame, MOST_DATA};
-use edskit_types::{CanId, CobId};
 use std::io::Write;
 use std::time::Duration;
 
@@ -56,15 +55,9 @@ impl Dialect for Server {
     }
 }
 
-/// The frame of `send ID LENGTH BYTE...`. Identifiers and bytes may be sign-extended, as SavvyCAN writes them; more than
-/// three digits are an extended identifier.
+/// The frame of `send ID LENGTH BYTE...`. Identifiers and bytes may be sign-extended, as SavvyCAN writes them.
 fn sent(id: &[u8], length: &[u8], data: &[&[u8]]) -> Option<Frame> {
-    let raw = hexadecimal(id)?;
-    let can_id = if id.len() > 3 {
-        CanId::extended(raw & CobId::EXTENDED_MASK)
-    } else {
-        CanId::standard(u16::try_from(raw).ok()?)
-    }?;
+    let can_id = identifier(id)?;
     let length = usize::try_from(hexadecimal(length)?).ok()?;
     if length > MOST_DATA || length != data.len() {
         return None;

@@ -1,6 +1,6 @@
 //! Clients against the hub, and against others that answer wrongly or not at all.
 
-use crate::tool::{frame, hub, next, until};
+use crate::tool::{frame, hub, next, patience, until};
 use edskit_host::{Bus, BusError, Client, Event, Hub, HubOptions, SendError, open};
 use edskit_runtime::Frame;
 use edskit_types::CanId;
@@ -138,6 +138,13 @@ fn a_side_that_does_not_read_fills_the_transmit_side_and_no_more() {
         assert!(count < 10_000_000, "somewhere frames are kept without end");
     };
     assert!(matches!(error, SendError::Full), "{error}");
+    client.wait(patience()).unwrap();
+    assert_eq!(client.receive().unwrap(), None);
+    let event = client.event().map(|event| event.to_string()).unwrap_or_default();
+    let expected = format!(
+        "connection to 127.0.0.1:{port} lost (the other side has not taken what was sent for 5 s), trying again"
+    );
+    assert_eq!(event, expected);
     drop(stream);
 }
 

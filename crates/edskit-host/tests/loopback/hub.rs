@@ -183,16 +183,14 @@ fn dropping_the_hub_closes_connections_and_frees_the_ports() {
     let hub = hub();
     let options = HubOptions { socketcand: hub.socketcand_address(), slcan: hub.slcan_address() };
     let mut device = hub.attach();
-    let mut tool = Tool::socketcand(hub.socketcand_address());
-    let mut lazy = Tool::slcan(hub.slcan_address());
+    let tool = Tool::socketcand(hub.socketcand_address());
+    let lazy = Tool::slcan(hub.slcan_address());
     for _ in 0..60_000 {
         device.send(&frame(0x181, &[0; 8])).unwrap();
     }
     drop(hub);
-    let mut rest = Vec::new();
-    // A reset is an end too.
-    let _ = tool.0.read_to_end(&mut rest);
-    let _ = lazy.0.read_to_end(&mut rest);
+    tool.hear_the_end();
+    lazy.hear_the_end();
     assert!(TcpStream::connect(options.socketcand.unwrap()).is_err());
     let again = Hub::start(&options).unwrap();
     assert_eq!(again.slcan_address(), options.slcan);

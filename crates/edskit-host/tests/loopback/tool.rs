@@ -3,7 +3,7 @@
 use edskit_host::{Bus, Hub, HubOptions, Received, system_now};
 use edskit_runtime::{Frame, Instant, Microseconds};
 use edskit_types::CanId;
-use std::io::{Read, Write};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
 use std::time::Duration;
 
@@ -41,14 +41,14 @@ pub(crate) fn until(what: &str, mut is_so: impl FnMut() -> bool) {
 }
 
 /// A tool that speaks to the hub byte by byte.
-pub(crate) struct Tool(pub(crate) TcpStream);
+pub(crate) struct Tool(BufReader<TcpStream>);
 
 impl Tool {
     pub(crate) fn new(address: Option<SocketAddr>) -> Self {
         let stream =
             TcpStream::connect(address.expect("the hub listens")).expect("the hub takes connections");
         stream.set_read_timeout(Some(Duration::from_secs(10))).expect("10 s is a time");
-        Self(stream)
+        Self(BufReader::new(stream))
     }
 
     /// As python-can shakes hands: one read for each word, compared exactly.
@@ -70,14 +70,21 @@ impl Tool {
     }
 
     pub(crate) fn say(&mut self, words: &str) {
-        self.0.write_all(words.as_bytes()).expect("the hub reads");
+        self.0.get_mut().write_all(words.as_bytes()).expect("the hub reads");
     }
 
     /// What one read gives.
     pub(crate) fn read_once(&mut self) -> String {
-        let mut bytes = [0; 256];
-        let count = self.0.read(&mut bytes).expect("the hub writes");
-        String::from_utf8_lossy(&bytes[..count]).into_owned()
+        let bytes = self.0.fill_buf().expect("the hub writes");
+        let (text, count) = (String::from_utf8_lossy(bytes).into_owned(), bytes.len());
+        self.0.consume(count);
+        text
+    }
+
+    /// Reads until the hub ends the connection.
+    pub(crate) fn hear_the_end(mut self) {
+        // A reset is an end too.
+        let _ = self.0.read_to_end(&mut Vec::new());
     }
 
     /// What comes until `end`, with it.
