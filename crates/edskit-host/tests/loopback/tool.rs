@@ -9,7 +9,7 @@ use std::time::Duration;
 
 /// Long enough for a machine that has much else to do.
 pub(crate) fn patience() -> Instant {
-    system_now() + Microseconds::from_milliseconds(10_000)
+    system_now() + Microseconds::from_milliseconds(20_000)
 }
 
 pub(crate) fn hub() -> Hub {
@@ -47,7 +47,7 @@ impl Tool {
     pub(crate) fn new(address: Option<SocketAddr>) -> Self {
         let stream =
             TcpStream::connect(address.expect("the hub listens")).expect("the hub takes connections");
-        stream.set_read_timeout(Some(Duration::from_secs(10))).expect("10 s is a time");
+        stream.set_read_timeout(Some(Duration::from_secs(20))).expect("20 s is a time");
         Self(BufReader::new(stream))
     }
 
