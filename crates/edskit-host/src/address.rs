@@ -57,16 +57,16 @@ pub enum AddressError {
     HubWithRest(String),
     /// No host.
     #[error("`{0}` lacks the host, expected {1}")]
-    NoHost(String, Form),
+    NoHost(String, AddressForm),
     /// No port.
     #[error("`{0}` lacks the port, expected {1}, usually port {port}", port = .1.port())]
-    NoPort(String, Form),
+    NoPort(String, AddressForm),
     /// A port that is none.
     #[error("`{0}`: `{2}` is no port, expected {1} with a port from 1 to 65535")]
-    BadPort(String, Form, String),
+    BadPort(String, AddressForm, String),
     /// An IPv6 address without brackets.
     #[error("`{0}`: an IPv6 address needs brackets, as in {kind}:[::1]:{port}", kind = .1.kind(), port = .1.port())]
-    NoBrackets(String, Form),
+    NoBrackets(String, AddressForm),
     /// A channel or an interface that cannot be one.
     #[error("`{0}`: `{1}` is no name of an interface, expected 1 to 15 letters, digits, `_`, `-` or `.`")]
     BadInterface(String, String),
@@ -80,14 +80,14 @@ pub enum AddressError {
 
 /// The two forms with host and port.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Form {
+pub enum AddressForm {
     /// `socketcand:HOST:PORT[/CHANNEL]`
     Socketcand,
     /// `slcan:HOST:PORT`
     Slcan,
 }
 
-impl Form {
+impl AddressForm {
     fn kind(self) -> &'static str {
         match self {
             Self::Socketcand => "socketcand",
@@ -103,7 +103,7 @@ impl Form {
     }
 }
 
-impl fmt::Display for Form {
+impl fmt::Display for AddressForm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Socketcand => "socketcand:HOST:PORT[/CHANNEL]",
@@ -123,7 +123,7 @@ impl FromStr for Address {
             ("socketcand", rest) => {
                 let rest = rest.unwrap_or_default();
                 let (place, channel) = rest.split_once('/').unwrap_or((rest, "can0"));
-                let (host, port) = host_and_port(text, place, Form::Socketcand)?;
+                let (host, port) = host_and_port(text, place, AddressForm::Socketcand)?;
                 Ok(Self::Socketcand { host, port, channel: interface(text, channel)? })
             }
             ("slcan", rest) => {
@@ -133,7 +133,7 @@ impl FromStr for Address {
                 {
                     return Err(AddressError::SerialLine(text.to_owned()));
                 }
-                let (host, port) = host_and_port(text, rest, Form::Slcan)?;
+                let (host, port) = host_and_port(text, rest, AddressForm::Slcan)?;
                 Ok(Self::Slcan { host, port })
             }
             ("socketcan", rest) => {
@@ -162,7 +162,7 @@ pub(crate) fn place(host: &str, port: u16) -> String {
     if host.contains(':') { format!("[{host}]:{port}") } else { format!("{host}:{port}") }
 }
 
-fn host_and_port(text: &str, place: &str, form: Form) -> Result<(String, u16), AddressError> {
+fn host_and_port(text: &str, place: &str, form: AddressForm) -> Result<(String, u16), AddressError> {
     let no_port = || AddressError::NoPort(text.to_owned(), form);
     let (host, port) = match place.strip_prefix('[') {
         Some(rest) => {

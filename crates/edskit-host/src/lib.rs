@@ -49,7 +49,7 @@ mod slcan;
 mod socketcan;
 mod socketcand;
 
-pub use address::{Address, AddressError};
+pub use address::{Address, AddressError, AddressForm};
 pub use bus::{Bus, Event, Received};
 pub use client::Client;
 pub use clock::system_now;

@@ -1,6 +1,7 @@
 use crate::*;
 use edskit_runtime::{Frame, Instant, Microseconds};
 use edskit_types::{Bitrate, CanId};
+use proptest::prelude::*;
 use std::io;
 
 fn frame(id: u16, data: &[u8]) -> Frame {
@@ -171,4 +172,20 @@ fn a_trace_that_cannot_be_written_ends_once_and_the_bus_goes_on() {
     }
     assert!(matches!(traced.event(), Some(Event::TraceEnded(_))));
     assert_eq!(traced.event(), None);
+}
+
+proptest! {
+    #[test]
+    fn any_frame_at_any_time_is_recorded(
+        id in 0u32..0x2000_0000, is_extended: bool, is_remote: bool, time: u64,
+        data in proptest::collection::vec(any::<u8>(), 0..=8),
+    ) {
+        let id = if is_extended { CanId::extended(id) } else { CanId::standard((id & 0x7FF) as u16) }.unwrap();
+        let frame = if is_remote { Frame::remote(id, data.len() as u8) } else { Frame::new(id, &data) };
+        let (mut log, mut file) = (Vec::new(), Vec::new());
+        Candump::new(&mut log, "can0").record(Instant(time), &frame).unwrap();
+        Pcap::new(&mut file).unwrap().record(Instant(time), &frame).unwrap();
+        prop_assert!(log.ends_with(b"\n"));
+        prop_assert_eq!(file.len(), 24 + 16 + 8 + frame.data().len());
+    }
 }

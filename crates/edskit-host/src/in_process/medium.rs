@@ -107,9 +107,9 @@ impl VirtualBus {
         let medium = self.0.borrow();
         let end = match &medium.in_flight {
             Some(in_flight) => Some(in_flight.end),
-            None => {
-                medium.winner().map(|(start, place)| start + medium.duration(&medium.pending[place].frame))
-            }
+            None => medium
+                .winner()
+                .map(|(start, place)| start.saturating_add(medium.duration(&medium.pending[place].frame))),
         };
         end.map_or(Instant::NEVER, microseconds)
     }
@@ -159,8 +159,8 @@ impl Medium {
 
     fn begin(&mut self, start: u64, place: usize) {
         let Pending { sender, frame, .. } = self.pending.swap_remove(place);
-        let end = start + self.duration(&frame);
-        self.free = end + u64::from(INTERMISSION) * self.bit;
+        let end = start.saturating_add(self.duration(&frame));
+        self.free = end.saturating_add(u64::from(INTERMISSION) * self.bit);
         self.in_flight = Some(InFlight { sender, frame, end });
     }
 

@@ -97,6 +97,19 @@ fn the_transmit_side_is_bounded_and_so_is_the_receive_side() {
 }
 
 #[test]
+fn the_end_of_time_is_survived() {
+    let bus = VirtualBus::new(Bitrate::Kbit10);
+    let (mut a, mut b) = (bus.attach(), bus.attach());
+    a.send(&frame(1, &[])).unwrap();
+    bus.advance(Instant::NEVER);
+    assert_eq!(all(&mut b).len(), 1);
+    a.send(&frame(2, &[])).unwrap();
+    bus.advance(Instant::NEVER);
+    b.wait(Instant::NEVER).unwrap();
+    assert_eq!(bus.now(), Instant::NEVER);
+}
+
+#[test]
 fn who_leaves_receives_nothing_and_what_it_sent_arrives() {
     let bus = VirtualBus::new(Bitrate::Kbit1000);
     let (mut a, mut b) = (bus.attach(), bus.attach());
