@@ -253,7 +253,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_shown_can_be_read(text in "(hub|socketcand|slcan|socketcan)(:[a-z\\[\\]:0-9]{0,12}){0,2}:?[0-9]{0,6}(/[a-z]{0,5})?|\\PC*") {
+        fn what_is_shown_can_be_read(
+            text in "(hub|socketcand|slcan|socketcan)(:[a-z\\[\\]:0-9]{0,12}){0,2}:?[0-9]{0,6}(/[a-z]{0,5})?|\\PC*"
+        ) {
             if let Ok(address) = text.parse::<Address>() {
                 prop_assert_eq!(address.to_string().parse(), Ok(address));
             }

@@ -38,8 +38,8 @@ pub struct Received {
 /// # serve(&mut bus.attach(), Instant(50)).unwrap();
 /// ```
 pub trait Bus {
-    /// The time on this bus: microseconds since 1970-01-01 00:00 UTC on a real one, since the start of the simulation on
-    /// a virtual one. It never goes back.
+    /// The time on this bus: microseconds since 1970-01-01 00:00 UTC on a real one, since the start of the simulation
+    /// on a virtual one. It never goes back.
     fn now(&self) -> Instant;
 
     /// The next frame, if one has arrived. It does not block.

@@ -145,8 +145,8 @@ fn converse(shared: &Shared, protocol: &Protocol, stream: &TcpStream) -> String 
         let unsent = Arc::clone(&outbox);
         let writer = thread::Builder::new().spawn_scoped(scope, move || {
             let result = write_all(stream, &unsent, protocol.encoder());
-            // The other side reads to the end and closes; only where it does not, the connection is cut. Shutting down fails
-            // only where that has happened already.
+            // The other side reads to the end and closes; only where it does not, the connection is cut. Shutting down
+            // fails only where that has happened already.
             let _ = stream.shutdown(Shutdown::Write);
             if result.is_ok() {
                 let _ = ended.recv_timeout(FAREWELL);
