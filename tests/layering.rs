@@ -20,6 +20,7 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
     ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["memchr", "serde", "toml"])),
     ("edskit-devices", &["edskit-types"], Only(&[])),
+    ("edskit-host", &["edskit-types", "edskit-runtime"], Any),
     ("edskit", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices"], Any),
     ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices", "edskit"], Any),
     ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),

@@ -12,6 +12,17 @@ type Step = (&'static str, fn() -> Outcome);
 const STEPS: &[Step] = &[
     ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
     ("lints", || run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
+    ("lints of what is behind a feature", || {
+        run(&mut cargo(&[
+            "clippy",
+            "--package=edskit-host",
+            "--features=socketcan",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ]))
+    }),
     ("tests", || run(&mut cargo(&["test", "--workspace"]))),
     ("documentation", documentation),
     ("benchmarks compile", || run(&mut cargo(&["bench", "-p", "edskit-benches", "--no-run"]))),
