@@ -21,8 +21,38 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["memchr", "serde", "toml"])),
     ("edskit-devices", &["edskit-types"], Only(&[])),
     ("edskit-host", &["edskit-types", "edskit-runtime"], Any),
-    ("edskit", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices"], Any),
-    ("edskit-tests", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices", "edskit"], Any),
+    ("edskit-runtime", &["edskit-types"], Only(&["embedded-can"])),
+    (
+        "edskit-codegen",
+        &["edskit-types", "edskit-model", "edskit-lint", "edskit-runtime"],
+        Only(&["askama", "serde", "toml"]),
+    ),
+    (
+        "edskit",
+        &[
+            "edskit-types",
+            "edskit-model",
+            "edskit-lint",
+            "edskit-devices",
+            "edskit-codegen",
+            "edskit-runtime",
+            "edskit-host",
+        ],
+        Any,
+    ),
+    (
+        "edskit-tests",
+        &[
+            "edskit-types",
+            "edskit-model",
+            "edskit-lint",
+            "edskit-devices",
+            "edskit-runtime",
+            "edskit-codegen",
+            "edskit",
+        ],
+        Any,
+    ),
     ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),
     ("xtask", &[], Any),
 ];
@@ -45,6 +75,9 @@ const OUTER_WORDS: &[&str] = &[
     "eprint!",
     "eprintln!",
 ];
+
+/// The one file of a library that may: it is for build scripts, which read and write files and talk to cargo.
+const BUILD_SCRIPT_FILE: &str = "edskit-codegen/src/compile.rs";
 
 /// The one file that may hold unsafe code: its allocator counts, and an allocator is unsafe by its trait.
 const UNSAFE_FILE: &str = "tests/hostile.rs";
@@ -101,6 +134,9 @@ fn every_crate_takes_lints_licence_and_toolchain_from_the_workspace() {
 fn libraries_open_no_file_print_nothing_and_know_no_clock() {
     for package in libraries(&metadata()) {
         for (path, text) in sources(&source_folder(package)) {
+            if path.ends_with(BUILD_SCRIPT_FILE) || path.ends_with("edskit-codegen/src/compile/tests.rs") {
+                continue;
+            }
             for (number, line) in text.lines().enumerate() {
                 let code = line.split("//").next().unwrap_or_default();
                 for word in OUTER_WORDS {
@@ -163,7 +199,7 @@ fn libraries(metadata: &Metadata) -> Vec<&Package> {
         ALLOWED.iter().any(|(name, _, libraries)| package.name == *name && matches!(libraries, Only(_)))
     };
     let libraries: Vec<&Package> = metadata.workspace_packages().into_iter().filter(is_library).collect();
-    assert_eq!(libraries.len(), 4);
+    assert_eq!(libraries.len(), 6);
     libraries
 }
 

@@ -54,5 +54,24 @@ pub use sdo::SdoServer;
 pub use storage::{NoStorage, Record, Storage, StorageError};
 pub use time::{Instant, Microseconds};
 
+/// The words of CANopen, for generated code.
+pub use edskit_types as types;
+
+/// Takes in the object dictionary that `edskit-codegen` has generated from an EDS in the build script.
+///
+/// The argument is the name of the EDS without its ending. The module is named after it in lower case with underscores:
+///
+/// ```text
+/// // build.rs: fn main() { edskit_codegen::compile("eds/Device.eds"); }
+/// edskit_runtime::include_dictionary!("Device");
+/// let dictionary = device::Dictionary::new();
+/// ```
+#[macro_export]
+macro_rules! include_dictionary {
+    ($name:literal) => {
+        include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
+    };
+}
+
 #[cfg(test)]
 mod tests;

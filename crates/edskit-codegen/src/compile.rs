@@ -1,0 +1,200 @@
+//! For build scripts: the one part of the crate that knows files, the environment, and cargo.
+
+use crate::{Naming, Problem, generate, module_name};
+use edskit_lint::{Linter, RuleSet};
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// Generates the dictionary of an EDS or DCF, whose path is seen from the package; for build scripts.
+///
+/// ```no_run
+/// // build.rs
+/// fn main() {
+///     edskit_codegen::compile("eds/Device.eds");
+/// }
+/// ```
+///
+/// The module `device` lies in `$OUT_DIR/Device.rs` afterwards, and `edskit_runtime::include_dictionary!("Device")` takes
+/// it in. A side-file `eds/Device.toml` is read where there is one. Warnings become warnings of cargo. Errors become
+/// errors of cargo and fail the build.
+pub fn compile(eds: impl AsRef<Path>) {
+    Config::new().compile(eds);
+}
+
+/// [`compile`] with other than the usual settings.
+///
+/// ```no_run
+/// // build.rs
+/// fn main() {
+///     edskit_codegen::Config::new().name("pump").runtime("::device_support::edskit_runtime").compile("eds/Device.eds");
+/// }
+/// ```
+#[derive(Clone, Default, Debug)]
+pub struct Config {
+    name: Option<String>,
+    side_file: Option<PathBuf>,
+    runtime: Option<String>,
+    out_dir: Option<PathBuf>,
+    rules: RuleSet,
+}
+
+impl Config {
+    /// The usual settings.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// What the output is called, instead of the EDS's own name: the file without `.rs`, and in lower case with
+    /// underscores the module.
+    #[must_use]
+    pub fn name(mut self, name: impl Into<String>) -> Self {
+        self.name = Some(name.into());
+        self
+    }
+
+    /// The side-file, which then has to exist, instead of the one beside the EDS.
+    #[must_use]
+    pub fn side_file(mut self, path: impl Into<PathBuf>) -> Self {
+        self.side_file = Some(path.into());
+        self
+    }
+
+    /// The path of the crate `edskit-runtime` in the generated code, instead of `::edskit_runtime`.
+    #[must_use]
+    pub fn runtime(mut self, path: impl Into<String>) -> Self {
+        self.runtime = Some(path.into());
+        self
+    }
+
+    /// The folder of the output, instead of `OUT_DIR`.
+    #[must_use]
+    pub fn out_dir(mut self, path: impl Into<PathBuf>) -> Self {
+        self.out_dir = Some(path.into());
+        self
+    }
+
+    /// The rules that the EDS is held to, instead of those that are on where nobody says anything.
+    #[must_use]
+    pub fn rules(mut self, rules: RuleSet) -> Self {
+        self.rules = rules;
+        self
+    }
+
+    /// Generates the dictionary of an EDS or DCF as [`compile`] does.
+    pub fn compile(&self, eds: impl AsRef<Path>) {
+        // Cargo fails the build for each `cargo::error`, and shows these alone where the script itself ends well. Where
+        // standard output is gone, there is nobody to tell.
+        let _ = self.run(eds.as_ref(), env::var_os("OUT_DIR"), &mut io::stdout().lock());
+    }
+
+    /// Writes what cargo is to know into `cargo`.
+    fn run(&self, eds: &Path, out_dir: Option<OsString>, cargo: &mut dyn Write) -> io::Result<()> {
+        let naming = self.naming(eds);
+        let inputs = match self.read(eds, Path::new(&naming.side_file), cargo)? {
+            Ok(inputs) => inputs,
+            Err(message) => return say(cargo, "error", &message),
+        };
+        let linter = Linter::new(self.rules.clone());
+        let line = |problem: &Problem| problem.line(&naming.eds, &naming.side_file).to_string();
+        let generated = match generate(&inputs.eds, inputs.side_file.as_deref(), &naming, &linter) {
+            Ok(generated) => generated,
+            Err(problems) => {
+                return problems.iter().try_for_each(|problem| say(cargo, "error", &line(problem)));
+            }
+        };
+        for problem in &generated.warnings {
+            say(cargo, "warning", &line(problem))?;
+        }
+        let Some(folder) = self.out_dir.clone().or_else(|| out_dir.map(PathBuf::from)) else {
+            let message =
+                "OUT_DIR is not set: call this in a build script, or name a folder with Config::out_dir";
+            return say(cargo, "error", message);
+        };
+        let path = folder.join(self.file_name(eds));
+        match write_if_changed(&path, &generated.code) {
+            Ok(()) => Ok(()),
+            Err(error) => say(cargo, "error", &format!("{}: {error}", path.display())),
+        }
+    }
+
+    fn naming(&self, eds: &Path) -> Naming {
+        let mut naming = Naming::of(&eds.to_string_lossy());
+        if let Some(name) = &self.name {
+            naming.module = module_name(name);
+        }
+        if let Some(side_file) = &self.side_file {
+            naming.side_file = side_file.to_string_lossy().into_owned();
+        }
+        if let Some(runtime) = &self.runtime {
+            naming.runtime.clone_from(runtime);
+        }
+        naming
+    }
+
+    /// `Device.rs`
+    fn file_name(&self, eds: &Path) -> OsString {
+        let stem = || eds.file_stem().unwrap_or_default().to_owned();
+        let mut name = self.name.as_ref().map_or_else(stem, OsString::from);
+        name.push(".rs");
+        name
+    }
+
+    /// Reads the inputs and says that the script depends on them.
+    fn read(
+        &self,
+        eds: &Path,
+        side_file: &Path,
+        cargo: &mut dyn Write,
+    ) -> io::Result<Result<Inputs, String>> {
+        let wrong = |path: &Path, error: io::Error| Err(format!("{}: {error}", path.display()));
+        say(cargo, "rerun-if-changed", &eds.to_string_lossy())?;
+        let eds_bytes = match fs::read(eds) {
+            Ok(bytes) => bytes,
+            Err(error) => return Ok(wrong(eds, error)),
+        };
+        if self.side_file.is_none() && !side_file.exists() {
+            // A file that does not exist would make every build begin anew, but the folder changes when it is made.
+            let folder = eds.parent().filter(|folder| folder.components().next().is_some());
+            if let Some(folder) = folder {
+                say(cargo, "rerun-if-changed", &folder.to_string_lossy())?;
+            }
+            return Ok(Ok(Inputs { eds: eds_bytes, side_file: None }));
+        }
+        say(cargo, "rerun-if-changed", &side_file.to_string_lossy())?;
+        Ok(match fs::read_to_string(side_file) {
+            Ok(text) => Ok(Inputs { eds: eds_bytes, side_file: Some(text) }),
+            Err(error) => wrong(side_file, error),
+        })
+    }
+}
+
+struct Inputs {
+    eds: Vec<u8>,
+    side_file: Option<String>,
+}
+
+/// One instruction for cargo, which is one line: `cargo::warning=..`.
+fn say(cargo: &mut dyn Write, key: &str, value: &str) -> io::Result<()> {
+    let value: String = value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    writeln!(cargo, "cargo::{key}={value}")
+}
+
+/// Writes a file unless it holds that text already: what depends on it is then not built again.
+///
+/// # Errors
+/// Where the file or its folder cannot be written.
+pub fn write_if_changed(path: &Path, text: &str) -> io::Result<()> {
+    if fs::read(path).is_ok_and(|present| present == text.as_bytes()) {
+        return Ok(());
+    }
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    fs::write(path, text)
+}
+
+#[cfg(test)]
+mod tests;

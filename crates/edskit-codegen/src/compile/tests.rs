@@ -1,0 +1,121 @@
+use super::*;
+
+const EDS: &str = "[1017]\nParameterName=Heartbeat\nObjectType=7\nDataType=6\nAccessType=rw\n";
+
+/// A folder of one test, gone when the test is.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = env::temp_dir().join(format!("edskit-codegen-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.0.join(name);
+        fs::write(&path, text).unwrap();
+        path
+    }
+
+    /// What cargo is told, with the folder's own path taken out.
+    fn run(&self, config: &Config, eds: &Path) -> String {
+        let mut told = Vec::new();
+        config.run(eds, Some(self.0.join("out").into()), &mut told).unwrap();
+        String::from_utf8(told).unwrap().replace(self.0.to_str().unwrap(), "<folder>")
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // A folder that stays behind harms nobody.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn without_rules() -> Config {
+    Config::new().rules(RuleSet::none())
+}
+
+#[test]
+fn inputs_and_output_are_named_after_the_eds() {
+    let folder = Folder::new("named");
+    let eds = folder.write("MyPump.eds", EDS);
+    assert_eq!(
+        folder.run(&without_rules(), &eds),
+        "cargo::rerun-if-changed=<folder>/MyPump.eds\ncargo::rerun-if-changed=<folder>\n"
+    );
+    folder.write("MyPump.toml", "[unit]\n'1017' = 'ms'\n");
+    assert_eq!(
+        folder.run(&without_rules(), &eds),
+        "cargo::rerun-if-changed=<folder>/MyPump.eds\ncargo::rerun-if-changed=<folder>/MyPump.toml\n"
+    );
+    let code = fs::read_to_string(folder.0.join("out/MyPump.rs")).unwrap();
+    assert!(code.contains("pub mod my_pump {") && code.contains(", rw, in `ms`."), "{code}");
+}
+
+#[test]
+fn settings_name_what_is_written() {
+    let folder = Folder::new("settings");
+    let eds = folder.write("a.eds", EDS);
+    let side_file = folder.write("other.toml", "");
+    let config = without_rules()
+        .name("Drive")
+        .side_file(&side_file)
+        .runtime("::support::runtime")
+        .out_dir(folder.0.join("elsewhere"));
+    let told = folder.run(&config, &eds);
+    assert!(told.ends_with("cargo::rerun-if-changed=<folder>/other.toml\n"), "{told}");
+    let code = fs::read_to_string(folder.0.join("elsewhere/Drive.rs")).unwrap();
+    assert!(code.contains("pub mod drive {") && code.contains("use ::support::runtime::{"), "{code}");
+}
+
+#[test]
+fn findings_are_told_with_their_place() {
+    let folder = Folder::new("findings");
+    let eds = folder.write("a.eds", EDS);
+    let errors = folder.run(&Config::new(), &eds);
+    assert!(errors.contains("cargo::error=<folder>/a.eds:1:1: DEV001 "), "{errors}");
+    assert!(!folder.0.join("out/a.rs").exists());
+    let mut rules = RuleSet::none();
+    rules.select("STY").unwrap();
+    folder.write("a.eds", &EDS.replace("rw\n", "rw\nLowLimit=$NODEID\n"));
+    folder.write("a.toml", "[unit]\n'2000' = 'V'\n");
+    let warnings = folder.run(&Config::new().rules(rules), &eds);
+    assert!(warnings.contains("cargo::warning=<folder>/a.eds:6:10: GEN a limit that depends"), "{warnings}");
+    assert!(
+        warnings.contains("cargo::warning=<folder>/a.toml:2:1: GEN the dictionary has no such"),
+        "{warnings}"
+    );
+}
+
+#[test]
+fn what_cannot_be_read_or_written_is_an_error() {
+    let folder = Folder::new("unreadable");
+    let told = folder.run(&without_rules(), &folder.0.join("none.eds"));
+    assert!(told.contains("cargo::error=<folder>/none.eds: "), "{told}");
+    let eds = folder.write("a.eds", EDS);
+    folder.write("a.toml", "unit = 1\n");
+    assert!(
+        folder.run(&without_rules(), &eds).contains("cargo::error=<folder>/a.toml:1:8: GEN invalid type")
+    );
+    let told = folder.run(&without_rules().side_file(folder.0.join("none.toml")), &eds);
+    assert!(told.contains("cargo::error=<folder>/none.toml: "), "{told}");
+    folder.write("a.toml", "");
+    let file = folder.write("file", "");
+    assert!(folder.run(&without_rules().out_dir(file), &eds).contains("cargo::error="));
+    let mut told = Vec::new();
+    without_rules().run(&eds, None, &mut told).unwrap();
+    assert!(String::from_utf8(told).unwrap().contains("cargo::error=OUT_DIR is not set"));
+}
+
+#[test]
+fn an_unchanged_file_is_not_written_again() {
+    let folder = Folder::new("unchanged");
+    let path = folder.write("a.rs", "text");
+    let before = fs::metadata(&path).unwrap().modified().unwrap();
+    write_if_changed(&path, "text").unwrap();
+    assert_eq!(fs::metadata(&path).unwrap().modified().unwrap(), before);
+    write_if_changed(&path, "other").unwrap();
+    assert_eq!(fs::read_to_string(&path).unwrap(), "other");
+}

@@ -1,0 +1,181 @@
+//! Every entry that the dictionary is to have, from all that describes one.
+
+mod extra;
+mod implicit;
+
+use super::value::Bytes;
+use super::{MOST_ENTRIES, Source, limits};
+use crate::{InputFile, Problem, SideFile};
+use edskit_lint::Severity;
+use edskit_model::{Datasheet, Description, DictionaryEntry, Object, SectionKind, Span};
+use edskit_types::{AccessType, DataType, DataTypeKind, Index, ObjectCode, SubIndex};
+
+/// The first index behind the data types, which are described but are no entries.
+const FIRST: Index = Index(0x1000);
+/// How many DEFTYPEs are followed from one to the next.
+const MOST_TYPES: usize = 8;
+
+/// One entry of the dictionary to be.
+#[derive(Clone, Debug)]
+pub(super) struct Item {
+    pub(super) index: Index,
+    pub(super) sub_index: SubIndex,
+    pub(super) data_type: DataType,
+    pub(super) access: AccessType,
+    pub(super) is_mappable: bool,
+    /// Sub-index 00h of an object with sub-objects.
+    pub(super) is_count: bool,
+    /// The side-file adds sub-objects to its object.
+    pub(super) is_extended: bool,
+    pub(super) default: Option<Bytes>,
+    /// As bits, where they are tighter than the type.
+    pub(super) limits: Option<(u64, u64)>,
+    /// Where the default stands, or what describes the entry.
+    pub(super) value_span: Span,
+    pub(super) source: Source,
+}
+
+impl Item {
+    pub(super) fn key(&self) -> (Index, SubIndex) {
+        (self.index, self.sub_index)
+    }
+}
+
+/// The entries in ascending order, and what there is to say about them.
+#[derive(Default)]
+pub(super) struct Gathered {
+    /// Not more than one beyond what a dictionary can have.
+    pub(super) items: Vec<Item>,
+    pub(super) notes: Vec<Problem>,
+    pub(super) errors: Vec<Problem>,
+}
+
+pub(super) fn items(sheet: &Datasheet, side_file: &SideFile) -> Gathered {
+    let mut gathered = Gathered::default();
+    for object in sheet.objects().filter(|object| object.index() >= FIRST) {
+        if let Some(ObjectCode::Null | ObjectCode::DefType | ObjectCode::DefStruct) = object.object_code() {
+            continue;
+        }
+        for entry in object.dictionary_entries() {
+            if gathered.items.len() > MOST_ENTRIES {
+                return gathered;
+            }
+            let item = described(sheet, object, entry, side_file, &mut gathered.notes);
+            gathered.items.push(item);
+        }
+    }
+    implicit::add(sheet, side_file, &mut gathered.items);
+    gathered.items.sort_by_key(Item::key);
+    extra::add(side_file, &mut gathered);
+    gathered
+}
+
+/// An entry that a section describes, by itself or with CompactSubObj.
+fn described(
+    sheet: &Datasheet,
+    object: Object<'_>,
+    entry: DictionaryEntry<'_>,
+    side_file: &SideFile,
+    notes: &mut Vec<Problem>,
+) -> Item {
+    let description = entry.description().unwrap_or(object.description());
+    let mut note = |span, message| {
+        notes.push(Problem::in_eds(sheet.document(), Severity::Warning, span, message));
+    };
+    let is_compact_count = entry.description().is_none() && entry.sub_index == SubIndex(0);
+    let resolved = if is_compact_count { Ok(DataType::Unsigned8) } else { data_type(sheet, description) };
+    let data_type = resolved.unwrap_or_else(|(span, reason)| {
+        let name = description.section().name();
+        note(span, format!("[{name}] becomes a DOMAIN, which only the application knows: {reason}"));
+        DataType::Domain
+    });
+    let access = entry.access().unwrap_or_else(|| {
+        let span = description.access_type().map_or(description.name_span(), |field| field.span());
+        note(span, format!("[{}] has no access type that can be read, and becomes ro", description.name()));
+        AccessType::Ro
+    });
+    let value = entry.value_field().map(|field| field.entry).filter(|_| data_type != DataType::Domain);
+    let default = value.and_then(|value| match Bytes::of_entry(value, data_type) {
+        Ok(bytes) => Some(bytes),
+        Err(reason) => {
+            let text = value.text();
+            note(value.value_span(), format!("`{}` is left out: {reason}", shortened(&text)));
+            None
+        }
+    });
+    let limits = match entry.description().filter(|_| access.is_writable()) {
+        Some(description) => {
+            let [low, high] = [description.low_limit(), description.high_limit()];
+            let read = limits::read(data_type, low.map(|low| low.entry), high.map(|high| high.entry));
+            for formula in read.formulas {
+                let reason = "a limit that depends on the node-ID is left out: the device has to check it";
+                note(formula.value_span(), reason.to_owned());
+            }
+            read.limits
+        }
+        None => None,
+    };
+    let has_subs = object.compact_count() > 0 || object.sub_objects().len() > 0;
+    let object_name = object.parameter_name().filter(|_| has_subs).map(|name| name.text().into_owned());
+    let name_span = description.name_span();
+    let source = Source {
+        file: InputFile::Eds,
+        section: description.section().kind().canonical_name().unwrap_or_default(),
+        span: name_span,
+        position: sheet.document().position(name_span.start),
+        name: entry.name().into_owned(),
+        object: object_name,
+        access,
+        unit: side_file.unit(entry.index, entry.sub_index).map(str::to_owned),
+    };
+    Item {
+        index: entry.index,
+        sub_index: entry.sub_index,
+        data_type,
+        access,
+        is_mappable: entry.is_mappable(),
+        is_count: has_subs && entry.sub_index == SubIndex(0),
+        is_extended: false,
+        default,
+        limits,
+        value_span: value.map_or(name_span, |value| value.value_span()),
+        source,
+    }
+}
+
+/// The data type of a description, that of a DEFTYPE followed to one of CiA 301; else why there is none.
+fn data_type(sheet: &Datasheet, described: Description<'_>) -> Result<DataType, (Span, String)> {
+    if let Some(data_type) = described.standard_type().filter(has_values) {
+        return Ok(data_type);
+    }
+    let Some(field) = described.data_type() else {
+        return Err((described.name_span(), "it has no data type".to_owned()));
+    };
+    let reason = || (field.span(), format!("`{}` is no data type of values", shortened(&field.text())));
+    let mut index = field.known().ok_or_else(reason)?;
+    for _ in 0..MOST_TYPES {
+        let definition = sheet.section(SectionKind::Object(Index(index)));
+        let definition = definition.and_then(|section| section.description()).ok_or_else(reason)?;
+        if definition.object_code() != Some(ObjectCode::DefType) {
+            break;
+        }
+        if let Some(data_type) = definition.standard_type().filter(has_values) {
+            return Ok(data_type);
+        }
+        index = definition.data_type().and_then(|field| field.known()).ok_or_else(reason)?;
+    }
+    Err(reason())
+}
+
+fn has_values(data_type: &DataType) -> bool {
+    data_type.kind() != DataTypeKind::Record
+}
+
+/// A text that is short enough for a message.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 40;
+    if text.chars().count() <= MOST {
+        return text.to_owned();
+    }
+    text.chars().take(MOST).chain(['\u{2026}']).collect()
+}

@@ -1,0 +1,216 @@
+//! From a datasheet to the plain data that a dictionary consists of.
+
+mod counts;
+mod gather;
+mod groups;
+mod image;
+mod limits;
+mod mappings;
+mod value;
+
+#[cfg(test)]
+mod tests;
+
+pub use counts::Counts;
+pub use mappings::{Mapped, Mapping, Place};
+
+use crate::{InputFile, Problem, SideFile};
+use edskit_lint::Severity;
+use edskit_model::{Datasheet, KeyName, Position as TextPosition, SectionKind, Span};
+use edskit_runtime::{Entry, Flags, Limits, Position, Table};
+use edskit_types::{AccessType, DataType};
+use gather::Item;
+use image::Images;
+
+/// The most entries that a dictionary can have: positions are 16 bits wide.
+pub const MOST_ENTRIES: usize = u16::MAX as usize;
+/// The most bytes that its values can have, and its constants: offsets are 16 bits wide.
+pub const MOST_BYTES: usize = u16::MAX as usize;
+
+/// An object dictionary as data: what is rendered as Rust, and what a node can be run with at once.
+///
+/// ```
+/// use edskit_codegen::{SideFile, lay_out};
+/// use edskit_model::Datasheet;
+/// use edskit_types::{Index, SubIndex};
+/// let text = b"[1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\nDefaultValue=1000\n";
+/// let layout = lay_out(&Datasheet::parse(text), &SideFile::default()).unwrap();
+/// assert_eq!(layout.defaults, 1000_u16.to_le_bytes());
+/// assert!(layout.table().find(Index(0x1017), SubIndex(0)).is_ok());
+/// ```
+#[derive(Clone, Debug)]
+pub struct Layout {
+    /// Every entry, in ascending order of index and sub-index.
+    pub entries: Vec<Entry>,
+    /// Where each entry comes from.
+    pub sources: Vec<Source>,
+    /// The values that cannot change.
+    pub constants: Vec<u8>,
+    /// What the values are at power-on.
+    pub defaults: Vec<u8>,
+    /// The limits of entries with [`Flags::LIMITED`], in ascending order of position.
+    pub limits: Vec<Limits>,
+    /// Which data types may fill gaps of RPDOs: bit i stands for the type at index i.
+    pub dummies: u32,
+    /// A number that differs between dictionaries of different structure.
+    pub fingerprint: u32,
+    /// How much working memory a node needs.
+    pub counts: Counts,
+    /// The mappings of power-on, in ascending order.
+    pub mappings: Vec<Mapping>,
+    /// The name of the product, where the file has one.
+    pub product: Option<String>,
+    /// What is worth knowing about the dictionary, but does not stand against it.
+    pub notes: Vec<Problem>,
+}
+
+/// Where an entry comes from, and what people call it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Source {
+    /// The file that describes it.
+    pub file: InputFile,
+    /// The section that describes it, without brackets: `1018sub1`.
+    pub section: String,
+    /// The bytes of that section's name.
+    pub span: Span,
+    /// The line and column of that.
+    pub position: TextPosition,
+    /// The ParameterName; as the file has it, so it can hold anything.
+    pub name: String,
+    /// The ParameterName of the whole object, where the entry is a sub-object.
+    pub object: Option<String>,
+    /// The access.
+    pub access: AccessType,
+    /// The unit, where the side-file names one.
+    pub unit: Option<String>,
+}
+
+impl Layout {
+    /// The fixed part of the dictionary.
+    #[must_use]
+    pub fn table(&self) -> Table<'_> {
+        Table {
+            entries: &self.entries,
+            constants: &self.constants,
+            defaults: &self.defaults,
+            limits: &self.limits,
+            dummies: self.dummies,
+            fingerprint: self.fingerprint,
+        }
+    }
+
+    /// The default of an entry: the bytes of its value, of a text as many as it has.
+    #[must_use]
+    pub fn default_of(&self, entry: &Entry) -> &[u8] {
+        let start = usize::from(entry.offset);
+        let is_variable = entry.flags.has(Flags::VARIABLE);
+        let image = if is_variable { &self.defaults } else { &self.constants };
+        let whole = image.get(start..).unwrap_or_default();
+        if is_variable && entry.data_type.is_string() {
+            let Some((length, text)) = whole.split_first_chunk() else { return &[] };
+            return text.get(..u16::from_le_bytes(*length).into()).unwrap_or_default();
+        }
+        whole.get(..entry.size.into()).unwrap_or_default()
+    }
+}
+
+/// Lays out the object dictionary of a datasheet.
+///
+/// What the file says wrongly becomes a note and counts as not said: it is the linter's task to refuse such a file.
+///
+/// # Errors
+/// What makes a dictionary impossible: more entries or bytes than can be addressed, and a side-file that contradicts the
+/// EDS.
+pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Problem>> {
+    let gather::Gathered { items, mut notes, mut errors } = gather::items(sheet, side_file);
+    notes.extend(unused(&items, side_file));
+    if items.len() > MOST_ENTRIES {
+        let message = format!("this is one entry more than the {MOST_ENTRIES} that a dictionary can have");
+        errors.extend(items.last().map(|item| problem_at(sheet, side_file, &item.source, message)));
+        return Err(errors);
+    }
+    let groups = groups::Groups::of(&items);
+    let mut images = Images::default();
+    let mut entries = Vec::with_capacity(items.len());
+    let mut limits = Vec::new();
+    for item in &items {
+        let position = Position(entries.len() as u16);
+        let (mut entry, is_within) = images.place(item, side_file);
+        if !is_within {
+            let message =
+                format!("the values of this entry and those before it take more than {MOST_BYTES} bytes");
+            errors.push(problem_at(sheet, side_file, &item.source, message));
+            return Err(errors);
+        }
+        if let Some((low, high)) = item.limits {
+            entry.flags = entry.flags.and(Flags::LIMITED);
+            limits.push(Limits { position, low, high });
+        }
+        if let Some(group) = groups.group(item, &entry, side_file) {
+            entry.flags = entry.flags.stored_in(group);
+        }
+        entries.push(entry);
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let Images { constants, defaults, .. } = images;
+    Ok(Layout {
+        counts: Counts::of(&entries),
+        fingerprint: fingerprint(&entries),
+        entries,
+        mappings: mappings::read(&items, sheet.document()),
+        constants,
+        defaults,
+        limits,
+        dummies: dummies(sheet),
+        product: product(sheet),
+        notes,
+        sources: items.into_iter().map(|item| item.source).collect(),
+    })
+}
+
+fn problem_at(sheet: &Datasheet, side_file: &SideFile, source: &Source, message: String) -> Problem {
+    match source.file {
+        InputFile::Eds => Problem::in_eds(sheet.document(), Severity::Error, source.span, message),
+        InputFile::SideFile => Problem::in_side_file(&side_file.text, Severity::Error, source.span, message),
+    }
+}
+
+/// What the side-file says about entries that the dictionary does not have.
+fn unused(items: &[Item], side_file: &SideFile) -> Vec<Problem> {
+    let is_there = |places: &crate::side_file::Places| {
+        items.iter().any(|item| places.contain(item.index, item.sub_index))
+    };
+    let note = |span| {
+        let message = "the dictionary has no such entry".to_owned();
+        Problem::in_side_file(&side_file.text, Severity::Warning, span, message)
+    };
+    side_file.unused(is_there).into_iter().map(note).collect()
+}
+
+fn product(sheet: &Datasheet) -> Option<String> {
+    Some(sheet.device_info()?.product_name()?.text().into_owned())
+}
+
+fn dummies(sheet: &Datasheet) -> u32 {
+    let section = sheet.section(SectionKind::DummyUsage);
+    let flags = section.into_iter().flat_map(|section| section.all_numbered(KeyName::Dummy));
+    let allowed = flags.filter(|entry| entry.flag().known() == Some(true));
+    allowed.fold(0, |bits, entry| bits | 1_u32.checked_shl(entry.key().number.into()).unwrap_or(0))
+}
+
+/// FNV-1a over what stored values depend on: the place, type and size of each entry. Defaults do not count, so that
+/// stored values outlive a change of them.
+fn fingerprint(entries: &[Entry]) -> u32 {
+    let bytes = entries.iter().flat_map(|entry| {
+        let numbers = [entry.index.0, u16::from(entry.sub_index.0), entry.data_type.index().0, entry.size];
+        numbers.into_iter().flat_map(u16::to_le_bytes)
+    });
+    bytes.fold(0x811C_9DC5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
+}
+
+/// How many bytes a value of this type has, where it is always the same.
+fn fixed_size(data_type: DataType) -> Option<u16> {
+    data_type.bits().map(|bits| bits.div_ceil(8))
+}

@@ -1,0 +1,333 @@
+use super::*;
+use crate::parse;
+use edskit_runtime::StorageGroup;
+use edskit_types::{Index, SubIndex};
+
+/// An object of an EDS.
+fn object(header: &str, name: &str, keys: &str) -> String {
+    format!("[{header}]\nParameterName={name}\n{}\n", keys.replace(' ', "\n"))
+}
+
+fn layout(eds: &str, side_file: &str) -> Layout {
+    parse(eds.as_bytes(), Some(side_file)).unwrap()
+}
+
+fn entry(layout: &Layout, index: u16, sub_index: u8) -> Entry {
+    let position = layout.table().find(Index(index), SubIndex(sub_index)).unwrap();
+    layout.entries[usize::from(position.0)]
+}
+
+fn flags(eds: &str, index: u16, sub_index: u8) -> Flags {
+    entry(&layout(eds, ""), index, sub_index).flags
+}
+
+fn messages(problems: &[Problem]) -> Vec<String> {
+    problems.iter().map(|problem| problem.line("a.eds", "a.toml").to_string()).collect()
+}
+
+#[test]
+fn what_can_change_lies_in_the_values() {
+    let is_variable =
+        |index, keys: &str| flags(&object(&format!("{index:X}"), "x", keys), index, 0).has(Flags::VARIABLE);
+    for (index, keys) in [
+        (0x1001, "DataType=5 AccessType=ro DefaultValue=0"),
+        (0x1002, "DataType=7 AccessType=ro DefaultValue=0"),
+        (0x1014, "DataType=7 AccessType=const DefaultValue=$NODEID+0x80"),
+        (0x1017, "DataType=6 AccessType=rw DefaultValue=0"),
+        (0x1020, "DataType=6 AccessType=ro"),
+        (0x2000, "DataType=6 AccessType=ro DefaultValue=1"),
+        (0x6041, "DataType=6 AccessType=ro PDOMapping=1"),
+        (0x6040, "DataType=6 AccessType=wo"),
+    ] {
+        assert!(is_variable(index, keys), "{index:X} {keys}");
+    }
+    for (index, keys) in [
+        (0x1000, "DataType=7 AccessType=ro DefaultValue=0x191"),
+        (0x1008, "DataType=9 AccessType=const DefaultValue=Pump"),
+        (0x100A, "DataType=9 AccessType=const"),
+        (0x2000, "DataType=6 AccessType=const DefaultValue=1 PDOMapping=1"),
+        (0x2001, "DataType=15 AccessType=rw"),
+        (0x2002, "ObjectType=2"),
+    ] {
+        assert!(!is_variable(index, keys), "{index:X} {keys}");
+    }
+}
+
+#[test]
+fn rights_follow_access_and_mapping() {
+    let both = Flags::TPDO.and(Flags::RPDO);
+    for (access, wanted) in [
+        ("ro", Flags::READ.and(Flags::TPDO).and(Flags::VARIABLE)),
+        ("const", Flags::READ.and(Flags::TPDO)),
+        ("wo", Flags::WRITE.and(Flags::RPDO).and(Flags::VARIABLE)),
+        ("rw", Flags::READ.and(Flags::WRITE).and(both).and(Flags::VARIABLE)),
+        ("rwr", Flags::READ.and(Flags::WRITE).and(Flags::TPDO).and(Flags::VARIABLE)),
+        ("rww", Flags::READ.and(Flags::WRITE).and(Flags::RPDO).and(Flags::VARIABLE)),
+    ] {
+        let keys = format!("DataType=6 AccessType={access} PDOMapping=1 DefaultValue=1");
+        assert_eq!(flags(&object("2000", "x", &keys), 0x2000, 0), wanted, "{access}");
+    }
+    let domain = object("2000", "x", "ObjectType=2 PDOMapping=1");
+    assert_eq!(flags(&domain, 0x2000, 0), Flags::READ.and(Flags::WRITE));
+}
+
+#[test]
+fn texts_have_room() {
+    let eds = [
+        object("1008", "a", "DataType=9 AccessType=const DefaultValue=Pump"),
+        object("2000", "b", "DataType=9 AccessType=rw DefaultValue=ok"),
+        object("2001", "c", "DataType=10 AccessType=rw DefaultValue=0102"),
+        object("2002", "d", "DataType=9 AccessType=ro DefaultValue=abc"),
+        object("2003", "e", "DataType=9 AccessType=const DefaultValue=abc"),
+    ]
+    .concat();
+    let layout = layout(&eds, "[capacity]\n'2001' = 3\n'2003' = 8\n");
+    let sizes: Vec<u16> = layout.entries.iter().map(|entry| entry.size).collect();
+    assert_eq!(sizes, [4, 32, 3, 3, 8]);
+    assert_eq!(layout.constants, b"Pump");
+    assert_eq!(layout.defaults.len(), 34 + 5 + 5 + 10);
+    assert_eq!(layout.defaults[34..44], *b"\x02\x00\x01\x02\x00\x03\x00abc");
+    let defaults: Vec<&[u8]> = layout.entries.iter().map(|entry| layout.default_of(entry)).collect();
+    assert_eq!(defaults, [&b"Pump"[..], b"ok", &[1, 2], b"abc", b"abc"]);
+    assert_eq!(layout.counts.buffers, 32);
+}
+
+#[test]
+fn equal_constants_share_their_bytes() {
+    let eds = ["1000", "1002", "2000"]
+        .map(|index| object(index, "x", "DataType=7 AccessType=const DefaultValue=5"));
+    let layout = layout(&eds.concat(), "");
+    assert_eq!(layout.constants, [5, 0, 0, 0]);
+    assert_eq!(layout.defaults, [5, 0, 0, 0], "1002h can change");
+}
+
+#[test]
+fn compact_storage_is_expanded() {
+    let eds = object("2100", "Ramp", "ObjectType=8 DataType=6 AccessType=rw DefaultValue=7 CompactSubObj=3")
+        + "[2100Name]\nNrOfEntries=1\n2=Slope\n[2100Value]\nNrOfEntries=1\n3=0x20\n";
+    let layout = layout(&eds, "");
+    let names: Vec<_> = layout.sources.iter().map(|source| source.name.as_str()).collect();
+    assert_eq!(names, ["NrOfObjects", "Ramp1", "Slope", "Ramp3"]);
+    assert_eq!(layout.constants, [3]);
+    assert_eq!(layout.defaults, [7, 0, 7, 0, 0x20, 0]);
+    assert_eq!(layout.entries[0].data_type, DataType::Unsigned8);
+}
+
+#[test]
+fn implicit_pdos_have_parameters() {
+    let info = "[DeviceInfo]\nCompactPDO=0x13\nNrOfRXPDO=5\nNrOfTXPDO=1\nGranularity=16\n";
+    let of_eds = layout(info, "");
+    assert_eq!(
+        of_eds.counts,
+        Counts { rpdos: 5, tpdos: 1, mapped: 24, servers: 1, consumers: 0, buffers: 0 }
+    );
+    assert_eq!(of_eds.default_of(&entry(&of_eds, 0x1400, 0)), [5]);
+    let second = entry(&of_eds, 0x1401, 1);
+    assert!(second.flags.has(Flags::NODE_RELATIVE.and(Flags::WRITE)));
+    assert_eq!(of_eds.default_of(&second), 0x300_u32.to_le_bytes());
+    assert_eq!(of_eds.default_of(&entry(&of_eds, 0x1404, 1)), 0x8000_0000_u32.to_le_bytes());
+    assert!(of_eds.table().find(Index(0x1400), SubIndex(3)).is_err());
+    let of_dcf = layout(&format!("{info}[DeviceComissioning]\nNodeID=1\n"), "");
+    assert_eq!(of_dcf.default_of(&entry(&of_dcf, 0x1401, 1)), 0x8000_0000_u32.to_le_bytes());
+}
+
+#[test]
+fn a_deftype_is_followed_and_unknown_types_are_domains() {
+    let eds = [
+        object("0041", "Speed", "ObjectType=5 DataType=0x0040"),
+        object("0040", "Number", "ObjectType=5 DataType=0x0006"),
+        object("0042", "Itself", "ObjectType=5 DataType=0x0042"),
+        object("2000", "a", "DataType=0x0041 AccessType=rw DefaultValue=0x1234"),
+        object("2001", "b", "DataType=0x0042 AccessType=rw DefaultValue=1"),
+        object("2002", "c", "DataType=0x0050 AccessType=rw"),
+        object("2003", "d", "AccessType=rw"),
+        object("2004", "e", "DataType=0x21 AccessType=rw"),
+        object("2005", "f", "DataType=6 AccessType=often"),
+    ]
+    .concat();
+    let layout = layout(&eds, "");
+    let types: Vec<_> = layout.entries.iter().map(|entry| entry.data_type).collect();
+    assert_eq!(types[0], DataType::Unsigned16);
+    assert!(types[1..5].iter().all(|data_type| *data_type == DataType::Domain));
+    assert_eq!(layout.defaults[..2], [0x34, 0x12]);
+    assert!(!entry(&layout, 0x2005, 0).flags.has(Flags::WRITE));
+    assert_eq!(
+        messages(&layout.notes),
+        [
+            "a.eds:20:10: GEN [2001] becomes a DOMAIN, which only the application knows: `0x0042` is no data type of values",
+            "a.eds:25:10: GEN [2002] becomes a DOMAIN, which only the application knows: `0x0050` is no data type of values",
+            "a.eds:27:2: GEN [2003] becomes a DOMAIN, which only the application knows: it has no data type",
+            "a.eds:32:10: GEN [2004] becomes a DOMAIN, which only the application knows: `0x21` is no data type of values",
+            "a.eds:37:12: GEN [2005] has no access type that can be read, and becomes ro",
+        ]
+    );
+}
+
+#[test]
+fn a_configured_value_comes_before_the_default() {
+    let eds = object("1017", "x", "DataType=6 AccessType=rw DefaultValue=1 ParameterValue=2")
+        + &object("1019", "y", "DataType=5 AccessType=rw DefaultValue=300");
+    let layout = layout(&eds, "");
+    assert_eq!(layout.defaults, [2, 0, 0]);
+    assert_eq!(messages(&layout.notes), ["a.eds:11:14: GEN `300` is left out: 300 is outside the data type"]);
+}
+
+#[test]
+fn limits_bind_what_clients_may_write() {
+    let eds = [
+        object("2000", "a", "DataType=6 AccessType=rw LowLimit=1"),
+        object("2001", "b", "DataType=6 AccessType=ro LowLimit=1"),
+        object("2002", "c", "DataType=6 AccessType=rw LowLimit=0 HighLimit=0xFFFF"),
+    ]
+    .concat();
+    let layout = layout(&eds, "");
+    assert_eq!(layout.limits, [Limits { position: Position(0), low: 1, high: 0xFFFF }]);
+    let limited: Vec<bool> = layout.entries.iter().map(|entry| entry.flags.has(Flags::LIMITED)).collect();
+    assert_eq!(limited, [true, false, false]);
+}
+
+fn parameters(saved: &[u8]) -> String {
+    let subs = saved.iter().map(|sub| object(&format!("1010sub{sub:X}"), "x", "DataType=7 AccessType=rw"));
+    let rest = [
+        object("1010", "Store", "ObjectType=8"),
+        object("1010sub0", "x", "DataType=5 AccessType=const DefaultValue=4"),
+        object("1016", "a", "DataType=7 AccessType=rw"),
+        object("1003", "b", "DataType=7 AccessType=rw"),
+        object("1600", "c", "ObjectType=9"),
+        object("1600sub0", "c", "DataType=5 AccessType=rw DefaultValue=1"),
+        object("1600sub1", "c", "DataType=7 AccessType=rw DefaultValue=0x60400010"),
+        object("6040", "d", "DataType=6 AccessType=rw PDOMapping=1"),
+        object("6060", "e", "DataType=6 AccessType=rw PDOMapping=1"),
+        object("6061", "f", "DataType=6 AccessType=rwr PDOMapping=1"),
+        object("2000", "g", "DataType=6 AccessType=rw"),
+        object("2001", "h", "DataType=6 AccessType=ro"),
+    ];
+    subs.chain(rest).collect()
+}
+
+#[test]
+fn parameters_are_stored_in_their_group() {
+    let groups = |saved: &[u8], side_file: &str| {
+        let layout = layout(&parameters(saved), side_file);
+        let stored = layout.entries.iter().filter_map(|entry| Some((entry.index.0, entry.flags.group()?.0)));
+        stored.collect::<Vec<_>>()
+    };
+    let communication = [(0x1016, 2), (0x1600, 2), (0x1600, 2)];
+    assert_eq!(groups(&[1], ""), [&communication[..], &[(0x2000, 4), (0x6060, 3)]].concat());
+    assert_eq!(groups(&[1, 2], ""), communication);
+    assert_eq!(groups(&[1, 3], ""), [(0x6060, 3)]);
+    assert_eq!(groups(&[], ""), []);
+    let side_file = "[storage]\n'1000-1FFF' = 'none'\n'2001' = 5\n'6060' = 'manufacturer'\n";
+    assert_eq!(groups(&[1], side_file), [(0x2000, 4), (0x2001, 5), (0x6060, 4)]);
+    assert_eq!(StorageGroup::MANUFACTURER.0, 4);
+}
+
+#[test]
+fn a_side_file_adds_sub_objects() {
+    let eds = object("2000", "Channel", "ObjectType=8")
+        + &object("2000sub0", "n", "DataType=5 AccessType=ro DefaultValue=1")
+        + &object("2000sub1", "x", "DataType=6 AccessType=rw")
+        + &object("2001", "y", "DataType=6 AccessType=rw");
+    let extra = |entries: &str| {
+        format!(
+            "[[extra]]\nentries = '{entries}'\nname = 'More'\ndata-type = 'INTEGER8'\naccess = 'ro'\ndefault = '-1'\n"
+        )
+    };
+    let added = layout(&eds, &extra("2000sub2-3"));
+    let places: Vec<_> = added.entries.iter().map(|entry| (entry.index.0, entry.sub_index.0)).collect();
+    assert_eq!(places, [(0x2000, 0), (0x2000, 1), (0x2000, 2), (0x2000, 3), (0x2001, 0)]);
+    assert!(entry(&added, 0x2000, 0).flags.has(Flags::VARIABLE), "the device says how many there are");
+    assert_eq!(added.default_of(&entry(&added, 0x2000, 3)), [0xFF]);
+    assert_eq!(added.sources[3].object.as_deref(), Some("Channel"));
+    let refused = |entries: &str| messages(&parse(eds.as_bytes(), Some(&extra(entries))).unwrap_err());
+    assert_eq!(refused("2000sub1-2"), ["a.toml:2:11: GEN 2000h sub-index 01h is in the dictionary already"]);
+    assert_eq!(
+        refused("2001sub1"),
+        ["a.toml:2:11: GEN 2001h is described as a variable, which has no sub-objects"]
+    );
+}
+
+#[test]
+fn a_side_file_names_entries_of_some_configurations_and_units() {
+    let eds =
+        object("2000", "a", "DataType=6 AccessType=rw") + &object("2001", "b", "DataType=6 AccessType=rw");
+    let layout = layout(&eds, "optional = ['2001', '3000']\n[unit]\n'2000-2001' = 'mm'\n");
+    let optional: Vec<bool> = layout.entries.iter().map(|entry| entry.flags.has(Flags::OPTIONAL)).collect();
+    assert_eq!(optional, [false, true]);
+    assert!(layout.sources.iter().all(|source| source.unit.as_deref() == Some("mm")));
+    assert_eq!(messages(&layout.notes), ["a.toml:1:21: GEN the dictionary has no such entry"]);
+}
+
+#[test]
+fn mappings_are_judged() {
+    let mapping = |entries: &[&str]| {
+        let head = object("1A00", "Mapping", "ObjectType=9")
+            + &object("1A00sub0", "n", &format!("DataType=5 AccessType=rw DefaultValue={}", entries.len()));
+        let entry = |(number, entry): (usize, &&str)| {
+            object(
+                &format!("1A00sub{}", number + 1),
+                "m",
+                &format!("DataType=7 AccessType=rw DefaultValue={entry}"),
+            )
+        };
+        let objects = object("6041", "s", "DataType=6 AccessType=ro PDOMapping=1")
+            + &object("6040", "c", "DataType=6 AccessType=rww PDOMapping=1")
+            + &object("6042", "x", "DataType=0x1B AccessType=ro PDOMapping=1")
+            + &object("6043", "x", "DataType=7 AccessType=ro");
+        head + &entries.iter().enumerate().map(entry).collect::<String>() + &objects
+    };
+    let problems = |entries: &[&str]| {
+        let lines = messages(&layout(&mapping(entries), "").mapping_problems());
+        lines.iter().map(|line| line.split_once("GEN ").unwrap().1.to_owned()).collect::<Vec<_>>()
+    };
+    assert!(problems(&["0x60410010"]).is_empty());
+    assert_eq!(
+        problems(&["0x60410008"]),
+        ["TPDO1 cannot carry 6041h sub-index 00h with 8 bits: it has another length"]
+    );
+    assert_eq!(
+        problems(&["0x60400010"]),
+        ["TPDO1 cannot carry 6040h sub-index 00h with 16 bits: it can be mapped in the other direction only"]
+    );
+    assert_eq!(
+        problems(&["0x60430020"]),
+        ["TPDO1 cannot carry 6043h sub-index 00h with 32 bits: it cannot be mapped"]
+    );
+    assert_eq!(
+        problems(&["0x60500020"]),
+        ["TPDO1 cannot carry 6050h sub-index 00h with 32 bits: there is no such entry"]
+    );
+    assert_eq!(
+        problems(&["0x00050008"]),
+        ["TPDO1 cannot carry 0005h sub-index 00h with 8 bits: a TPDO has no gaps"]
+    );
+    assert_eq!(problems(&["0x60420040", "0x60410010"]), ["TPDO1 carries 80 bits, and a PDO has 64"]);
+}
+
+#[test]
+fn the_fingerprint_is_that_of_the_structure() {
+    let of = |keys: &str| layout(&object("2000", "x", keys), "").fingerprint;
+    let first = of("DataType=6 AccessType=rw DefaultValue=1");
+    assert_eq!(of("DataType=6 AccessType=rw DefaultValue=2"), first);
+    assert_ne!(of("DataType=5 AccessType=rw DefaultValue=1"), first);
+}
+
+#[test]
+fn what_cannot_be_addressed_is_refused() {
+    let text =
+        object("2000", "x", "DataType=9 AccessType=rw") + &object("2001", "y", "DataType=9 AccessType=rw");
+    let refused = parse(text.as_bytes(), Some("[capacity]\n'2000-2001' = 40000\n")).unwrap_err();
+    assert_eq!(
+        messages(&refused),
+        ["a.eds:5:2: GEN the values of this entry and those before it take more than 65535 bytes"]
+    );
+    let many: String = (0x2000..0x2200)
+        .map(|index| {
+            object(&format!("{index:X}"), "x", "ObjectType=8 DataType=5 AccessType=rw CompactSubObj=254")
+        })
+        .collect();
+    let refused = parse(many.as_bytes(), None).unwrap_err();
+    assert!(
+        messages(&refused)[0].ends_with("this is one entry more than the 65535 that a dictionary can have")
+    );
+}

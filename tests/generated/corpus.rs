@@ -1,0 +1,53 @@
+//! Real files become code that compiles.
+
+use crate::checks::complaints;
+use crate::compiler::{Packages, stderr};
+use edskit_codegen::{Naming, parse, render};
+use std::collections::BTreeSet;
+
+/// How many packages the code is divided into: the compiler works on one at a time per core.
+const PACKAGES: usize = 4;
+
+/// Every file of the corpus, whatever the linter says about it. Mappings that cannot be are refused by the compiler, and
+/// exactly those.
+#[test]
+fn corpus_generates() {
+    let Some(corpus) = edskit_tests::corpus("generating code for the corpus") else { return };
+    let mut good: Vec<String> = Vec::new();
+    let mut bad = Vec::new();
+    let mut refused = BTreeSet::new();
+    for (number, file) in corpus.iter().enumerate() {
+        let name = format!("file_{number}.eds");
+        let layout = match parse(&file.bytes, None) {
+            Ok(layout) => layout,
+            Err(problems) => panic!("{}: {}", file.name, problems[0].line(&name, "")),
+        };
+        let code = render(&layout, &Naming::of(&name));
+        let problems = layout.mapping_problems();
+        if problems.is_empty() {
+            good.push(code);
+        } else {
+            refused.extend(problems.iter().map(|problem| format!("{name}:{}", problem.position)));
+            bad.push(code);
+        }
+    }
+    assert!(good.len() > bad.len(), "{} files can be used, {} cannot", good.len(), bad.len());
+    let mut packages = Packages::new("corpus");
+    // The longest first, each to the package that has least, so that all take the same time.
+    good.sort_by_key(|code| core::cmp::Reverse(code.len()));
+    let mut parts = vec![Vec::new(); PACKAGES];
+    for code in &good {
+        let shortest =
+            parts.iter_mut().min_by_key(|part| part.iter().map(|code: &&str| code.len()).sum::<usize>());
+        shortest.expect("there are packages").push(code.as_str());
+    }
+    for (number, part) in parts.into_iter().enumerate() {
+        packages.add_library(&format!("part-{number}"), part);
+    }
+    packages.check();
+    if !bad.is_empty() {
+        packages.add_library("refused", bad.iter().map(String::as_str));
+        let output = packages.cargo(&["check", "-p", "refused"]);
+        assert_eq!(complaints(&stderr(&output)), refused);
+    }
+}
