@@ -1,5 +1,6 @@
 //! Tasks of this repository: `cargo xtask`.
 
+mod conformance;
 mod docs;
 mod python;
 mod step;

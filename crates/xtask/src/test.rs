@@ -1,7 +1,7 @@
 //! `cargo xtask test`: the one command that says whether everything holds.
 
 use crate::step::{Outcome, cargo, run};
-use crate::{is_ci, python, say};
+use crate::{conformance, is_ci, python, say};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -28,6 +28,7 @@ const STEPS: &[Step] = &[
     ("benchmarks compile", || run(&mut cargo(&["bench", "-p", "edskit-benches", "--no-run"]))),
     ("fuzz targets compile", fuzz_targets),
     ("independent reading of the corpus", python::independent_reading),
+    ("conformance of a loaded file", conformance::of_a_loaded_file),
 ];
 
 /// Runs every step, also behind one that failed, and ends with a summary.
