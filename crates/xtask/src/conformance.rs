@@ -4,9 +4,10 @@ use crate::python::{self, shared};
 use crate::root;
 use crate::say;
 use crate::step::{Outcome, cargo, command, run};
+use std::env;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
 const VENV: &str = "target/conformance-venv";
@@ -52,7 +53,13 @@ struct Node {
 
 impl Node {
     fn start(eds: &Path) -> Result<Self, String> {
-        let mut start = cargo(&["run", "--quiet", "--package", "edskit", "--", "run"]);
+        // With the whole workspace, so that no dependency has other features than in the tests and is built again.
+        match run(&mut cargo(&["build", "--quiet", "--workspace", "--bin", "edskit"])) {
+            Outcome::Passed => {}
+            outcome => return Err(format!("edskit cannot be built ({outcome})")),
+        }
+        let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
+        let mut start = command(target.join("debug/edskit"), &["run"]);
         start.arg(eds).args(["--node-id", NODE_ID, "--listen", "127.0.0.1:0"]);
         let mut process =
             start.stdout(Stdio::piped()).spawn().map_err(|error| format!("edskit run: {error}"))?;
