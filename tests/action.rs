@@ -12,10 +12,10 @@ use std::sync::LazyLock;
 
 const BAD: &str = "[2000]\nParameterName=Speed\nObjectType=0x7\nDataType=0x0006\nAccessType=RX\n";
 
-/// The command `edskit`, built as the tests are.
+/// The command `edskit`, built with the whole workspace: then no dependency has other features and is built again.
 static EDSKIT: LazyLock<PathBuf> = LazyLock::new(|| {
     let mut build = Command::new(env!("CARGO"))
-        .args(["build", "--quiet", "--package", "edskit", "--bin", "edskit", "--message-format", "json"])
+        .args(["build", "--quiet", "--workspace", "--bin", "edskit", "--message-format", "json"])
         .current_dir(root())
         .stdout(Stdio::piped())
         .spawn()

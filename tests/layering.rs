@@ -20,13 +20,26 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
     ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["memchr", "serde", "toml"])),
     ("edskit-devices", &["edskit-types"], Only(&[])),
+    ("edskit-host", &["edskit-types", "edskit-runtime"], Any),
     ("edskit-runtime", &["edskit-types"], Only(&["embedded-can"])),
     (
         "edskit-codegen",
         &["edskit-types", "edskit-model", "edskit-lint", "edskit-runtime"],
         Only(&["askama", "serde", "toml"]),
     ),
-    ("edskit", &["edskit-types", "edskit-model", "edskit-lint", "edskit-devices"], Any),
+    (
+        "edskit",
+        &[
+            "edskit-types",
+            "edskit-model",
+            "edskit-lint",
+            "edskit-devices",
+            "edskit-codegen",
+            "edskit-runtime",
+            "edskit-host",
+        ],
+        Any,
+    ),
     (
         "edskit-tests",
         &[

@@ -1,6 +1,6 @@
 //! What holds for every input, whatever it is.
 
-use edskit_lint::{FileKind, Finding, Fix, Linter, RuleSet};
+use edskit_lint::{Applicability, FileKind, Finding, Fix, Linter, RuleSet, Severity, fix};
 use edskit_model::{Datasheet, Span, format, same_meaning};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -67,7 +67,7 @@ fn the_files_of_the_project_as_they_are() {
     }
 }
 
-/// What holds for the text, for the findings of every rule, and for the canonical text.
+/// What holds for the text, for the findings of every rule and their fixes, and for the canonical text.
 fn check(bytes: &[u8], name: &str) -> Result<(), TestCaseError> {
     let sheet = Datasheet::parse(bytes);
     prop_assert_eq!(sheet.document().to_bytes(), bytes);
@@ -78,7 +78,31 @@ fn check(bytes: &[u8], name: &str) -> Result<(), TestCaseError> {
     }
     prop_assert!(findings.is_sorted_by_key(|finding| finding.span().start));
     prop_assert_eq!(format!("{:?}", findings), format!("{:?}", lint()));
+    for least in [Applicability::Safe, Applicability::Unsafe] {
+        check_fixes(bytes, name, &findings, least)?;
+    }
     check_format(&sheet)
+}
+
+/// All fixes together make no file worse, and change nothing where there is none.
+fn check_fixes(
+    bytes: &[u8],
+    name: &str,
+    findings: &[Finding],
+    least: Applicability,
+) -> Result<(), TestCaseError> {
+    let linter = Linter::new(RuleSet::all());
+    let fixed = fix(&linter, Datasheet::parse(bytes), FileKind::of(name), Some(name), least);
+    let count = |findings: &[Finding], severity| {
+        findings.iter().filter(|finding| finding.severity == severity).count()
+    };
+    let burden = |findings| {
+        [Severity::Error, Severity::Warning, Severity::Info].map(|severity| count(findings, severity))
+    };
+    let result = fixed.sheet.document().to_bytes();
+    prop_assert!(burden(&fixed.findings) <= burden(findings), "{}", result.escape_ascii());
+    prop_assert!(fixed.applied > 0 || result == bytes, "{}", result.escape_ascii());
+    Ok(())
 }
 
 fn check_format(sheet: &Datasheet) -> Result<(), TestCaseError> {

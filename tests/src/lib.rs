@@ -1,9 +1,11 @@
 //! Helpers of the tests of what crosses crates: where the files are, hostile ones, and the command line.
 
 mod command;
+pub mod field_report;
 mod folder;
 pub mod hostile;
 pub mod picture;
+pub mod seeded;
 
 pub use command::{Output, edskit, edskit_with_input};
 pub use folder::Folder;

@@ -5,9 +5,13 @@ use crate::odd_lines::{self, OddLine};
 use crate::pdos::{self, DescribedPdo};
 use crate::profile::{Applied, Prescribed, Prescription, Profile};
 use crate::rules::cob_id::JudgedCobId;
+use crate::rules::syntax::lost_header;
 use crate::{FileKind, Finding, Label, Neighbours, Rule};
-use core::cell::OnceCell;
-use edskit_model::{Datasheet, Description, Document, Entry, Field, KeyName, Span, Value, ValueErrorKind};
+use core::cell::{OnceCell, RefCell};
+use edskit_model::{
+    Datasheet, Description, Document, Entry, Field, KeyName, Section, SectionKind, Span, Value,
+    ValueErrorKind,
+};
 use edskit_types::{AccessType, DataType, Index, ObjectCode, SubIndex};
 
 /// The file that is linted.
@@ -30,6 +34,12 @@ pub struct Context<'a> {
     pdos: OnceCell<Vec<DescribedPdo<'a>>>,
     /// The COB-IDs, once a rule has asked for them.
     cob_ids: OnceCell<Vec<JudgedCobId<'a>>>,
+    /// Rules that have said once for the whole file what they find.
+    said: RefCell<Vec<&'static Rule>>,
+    /// The sections whose headers stand behind other text, sorted, once a rule has asked for them.
+    hidden_sections: OnceCell<Vec<SectionKind>>,
+    /// Whether there are modules, once a rule has asked.
+    modular: OnceCell<bool>,
 }
 
 impl<'a> Context<'a> {
@@ -45,6 +55,9 @@ impl<'a> Context<'a> {
             odd_lines: OnceCell::new(),
             pdos: OnceCell::new(),
             cob_ids: OnceCell::new(),
+            said: RefCell::default(),
+            hidden_sections: OnceCell::new(),
+            modular: OnceCell::new(),
         }
     }
 
@@ -79,6 +92,22 @@ impl<'a> Context<'a> {
         self.cob_ids.get_or_init(|| JudgedCobId::all(self))
     }
 
+    /// Whether a rule asks this for the first time: for checks of single variables that report once for the file.
+    pub(crate) fn is_first(&self, rule: &'static Rule) -> bool {
+        let mut said = self.said.borrow_mut();
+        let is_first = !said.contains(&rule);
+        if is_first {
+            said.push(rule);
+        }
+        is_first
+    }
+
+    /// The sections whose headers stand behind other text, sorted: SYN008 reports the lost line break, so that other
+    /// rules do not report its consequences.
+    pub(crate) fn hidden_sections(&self) -> &[SectionKind] {
+        self.hidden_sections.get_or_init(|| lost_header::hidden(self))
+    }
+
     /// The text.
     pub fn document(&self) -> &'a Document {
         self.sheet.document()
@@ -96,7 +125,10 @@ impl<'a> Context<'a> {
 
     /// `PDOMapping` for mapping entries and so on may name objects that only modules bring.
     pub fn is_modular(&self) -> bool {
-        self.sheet.supported_modules().is_some()
+        let is_of_module = |section: Section<'_>| matches!(section.kind(), SectionKind::Module(..));
+        *self.modular.get_or_init(|| {
+            self.sheet.supported_modules().is_some() || self.sheet.other_sections().any(is_of_module)
+        })
     }
 }
 
@@ -269,6 +301,7 @@ impl Report {
             labels: vec![Label { span, text: String::new() }],
             help: None,
             fix: None,
+            omitted: 0,
         };
         if self.counts.len() <= self.slot {
             self.counts.resize(self.slot + 1, Count::default());
@@ -287,9 +320,9 @@ impl Report {
     pub(crate) fn into_findings(mut self) -> Vec<Finding> {
         for count in self.counts {
             if let Some(more) = count.reported.checked_sub(MOST_FINDINGS).filter(|&more| more > 0) {
-                self.findings[count.last]
-                    .message
-                    .push_str(&format!("; {more} more findings of this rule are left out"));
+                let last = &mut self.findings[count.last];
+                last.omitted = more;
+                last.message.push_str(&format!("; {more} more findings of this rule are left out"));
             }
         }
         self.findings

@@ -49,6 +49,8 @@ pub struct Finding {
     pub help: Option<String>,
     /// Edits that would mend it.
     pub fix: Option<Fix>,
+    /// How many further findings of the rule were left out behind this one, because nobody reads so many.
+    pub omitted: usize,
 }
 
 impl Finding {

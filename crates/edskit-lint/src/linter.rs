@@ -2,6 +2,7 @@
 
 use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
+use crate::rules::syntax::line_without_equals;
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
 use crate::suppression;
 use crate::{Check, FileKind, Finding, Neighbours, Profile, RuleSet};
@@ -91,6 +92,7 @@ impl Linter {
             walk(context, &self.checks(context.kind), &mut report);
         }
         let mut findings = report.into_findings();
+        line_without_equals::take_over_lost_headers(context, &mut findings);
         for label in findings.iter_mut().flat_map(|finding| &mut finding.labels) {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);
@@ -182,6 +184,23 @@ mod tests {
         let linter = Linter::new(RuleSet::only(&find("invalid-number").unwrap()));
         let findings = linter.lint(&Datasheet::parse(text.as_bytes()), FileKind::Eds, None);
         assert_eq!(findings[0].span().slice(text.as_bytes()), "\u{20AC}".as_bytes());
+    }
+
+    #[test]
+    fn a_value_that_swallowed_a_header_is_one_defect() {
+        let codes = |text: &str| {
+            let mut rules = RuleSet::none();
+            for rule in ["SYN008", "OBJ002", "OBJ005", "OBJ022", "DEV003", "LST001"] {
+                rules.select(rule).unwrap();
+            }
+            let findings = Linter::new(rules).lint(&Datasheet::parse(text.as_bytes()), FileKind::Eds, None);
+            findings.iter().map(|finding| finding.rule.code).collect::<Vec<_>>()
+        };
+        for entry in ["ObjectType=7", "AccessType=ro", "PDOMapping=0"] {
+            assert_eq!(codes(&format!("[1000]\n{entry}[1001]\nParameterName=a\n")), ["LST001", "SYN008"]);
+        }
+        assert_eq!(codes("[DeviceInfo]\nLSS_Supported=0[1000]\nParameterName=a\n"), ["LST001", "SYN008"]);
+        assert_eq!(codes("50[DeviceInfo]\nVendorName=a\n"), ["LST001", "SYN008"]);
     }
 
     #[test]

@@ -2,7 +2,12 @@
 
 use crate::wording::series;
 use crate::{Context, Edit, Finding, Report};
-use edskit_model::{Entry, KeyName, Section};
+use edskit_model::{Entry, KeyName, Section, Span};
+
+/// Where a missing value is shown: at its entry, where there is one without a value, else at the section.
+pub(crate) fn place_of(section: Section<'_>, key: KeyName) -> Span {
+    section.entry(key).map_or(section.span(), |entry| entry.span())
+}
 
 /// What a section lacks of a set of keys.
 pub(crate) struct Missing<'a> {

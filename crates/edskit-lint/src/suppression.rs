@@ -22,8 +22,8 @@ struct Suppression {
 
 /// Takes out the findings that comments of the file silence, and reports comments that silence nothing.
 pub(crate) fn apply(context: &Context<'_>, rules: &RuleSet, findings: &mut Vec<Finding>) {
-    let mut suppressions = read(context);
-    if suppressions.is_empty() {
+    let Comments { mut suppressions, misread } = read(context);
+    if suppressions.is_empty() && misread.is_empty() {
         return;
     }
     findings.retain(|finding| {
@@ -40,7 +40,19 @@ pub(crate) fn apply(context: &Context<'_>, rules: &RuleSet, findings: &mut Vec<F
     });
     if rules.is_enabled(&UNUSED_SUPPRESSION) {
         report_unused(context, rules, &suppressions, findings);
+        report_misread(context, &misread, findings);
     }
+}
+
+fn report_misread(context: &Context<'_>, misread: &[Span], findings: &mut Vec<Finding>) {
+    let mut report = Report::new(&UNUSED_SUPPRESSION);
+    for &comment in misread {
+        let text = context.sheet.text(comment);
+        report
+            .add(comment, format!("`{text}` allows nothing: it cannot be read"))
+            .help("write `;edskit: allow(OBJ016) why` or `;edskit: allow-file(OBJ016) why`");
+    }
+    findings.append(&mut report.into_findings());
 }
 
 fn report_unused(
@@ -71,27 +83,38 @@ fn report_unused(
     findings.append(&mut report.into_findings());
 }
 
-/// The suppressions of a file.
-fn read(context: &Context<'_>) -> Vec<Suppression> {
+/// The comments of a file that are meant for this program.
+#[derive(Default)]
+struct Comments {
+    suppressions: Vec<Suppression>,
+    /// Those that are of no known form.
+    misread: Vec<Span>,
+}
+
+fn read(context: &Context<'_>) -> Comments {
     let source = context.source();
     // Almost no file has one, and this is faster than a look at every line.
     if memchr::memmem::find(source, MARK.as_bytes()).is_none() {
-        return Vec::new();
+        return Comments::default();
     }
     let lines = context.document().lines();
-    let mut suppressions = Vec::new();
+    let mut comments = Comments::default();
     for (number, line) in lines.iter().enumerate().filter(|(_, line)| line.kind() == LineKind::Comment) {
-        let Some((keyword, selectors)) = parse(source, line) else { continue };
+        let Some(order) = after_mark(source, line) else { continue };
+        let Some((keyword, selectors)) = parse(source, order) else {
+            comments.misread.push(line.trimmed(source));
+            continue;
+        };
         let scope = match keyword {
             Keyword::File => Span::new(0, source.len() as u32),
             Keyword::Next => next_scope(lines, number),
         };
         for selector in selectors {
             let rules = find(&String::from_utf8_lossy(selector.slice(source))).unwrap_or_default();
-            suppressions.push(Suppression { line: number, selector, rules, scope, used: false });
+            comments.suppressions.push(Suppression { line: number, selector, rules, scope, used: false });
         }
     }
-    suppressions
+    comments
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -102,32 +125,35 @@ enum Keyword {
     File,
 }
 
-/// The keyword of a comment and the spans of the rules in its parentheses.
-fn parse(source: &[u8], line: &Line) -> Option<(Keyword, Vec<Span>)> {
+/// What a comment says behind the mark, where it has it.
+fn after_mark(source: &[u8], line: &Line) -> Option<Span> {
     let span = line.trimmed(source);
-    let text = span.slice(source);
-    let after = |text: &[u8], prefix: &str| -> Option<usize> {
-        let lead = text.len() - text.trim_ascii_start().len();
-        text[lead..].starts_with(prefix.as_bytes()).then_some(lead + prefix.len())
-    };
-    let mut position = 1;
-    position += after(&text[position..], MARK)?;
-    let keyword = if let Some(length) = after(&text[position..], "allow-file(") {
-        position += length;
-        Keyword::File
-    } else {
-        position += after(&text[position..], "allow(")?;
-        Keyword::Next
-    };
+    let text = span.slice(source).get(1..)?;
+    let lead = text.len() - text.trim_ascii_start().len();
+    let start = 1 + lead + MARK.len();
+    text[lead..].starts_with(MARK.as_bytes()).then(|| span.sub(start, span.len() - start))
+}
+
+/// The keyword of such an order and the spans of the rules in its parentheses, at least one.
+fn parse(source: &[u8], order: Span) -> Option<(Keyword, Vec<Span>)> {
+    let text = order.slice(source);
+    let lead = text.len() - text.trim_ascii_start().len();
+    let forms = [("allow-file(", Keyword::File), ("allow(", Keyword::Next)];
+    let (prefix, keyword) =
+        forms.into_iter().find(|(prefix, _)| text[lead..].starts_with(prefix.as_bytes()))?;
+    let position = lead + prefix.len();
     let length = text[position..].iter().position(|&byte| byte == b')')?;
     let mut selectors = Vec::new();
     let mut start = position;
     for part in text[position..position + length].split(|&byte| byte == b',') {
         let lead = part.len() - part.trim_ascii_start().len();
-        selectors.push(span.sub(start + lead, part.trim_ascii().len()));
+        let selector = order.sub(start + lead, part.trim_ascii().len());
+        if !selector.is_empty() {
+            selectors.push(selector);
+        }
         start += part.len() + 1;
     }
-    Some((keyword, selectors))
+    (!selectors.is_empty()).then_some((keyword, selectors))
 }
 
 /// From the comment to the end of what stands next: an entry, any other line, or a section with all that belongs to it.
@@ -192,7 +218,21 @@ mod tests {
 
     #[test]
     fn other_comments_mean_nothing() {
-        let text = "[2000sub0]\n;edskit\n;edskit: allow OBJ013\n;edskit: allow(OBJ013\nDataType=0x0007\n";
+        let text = "[2000sub0]\n;edskit\n; see edskit: allow(OBJ013)\n;\nDataType=0x0007\n";
         assert_eq!(codes(text).len(), 1);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_reported() {
+        let orders = ["allow OBJ013", "alow(OBJ013)", "allow(OBJ013", "allow()", "Allow(OBJ013)", ""];
+        for order in orders {
+            let text = format!("[2000sub0]\n;edskit: {order}\nDataType=0x0007\n");
+            let comment = format!(";edskit: {order}");
+            let expected = [
+                format!("2:1 SYN027 `{}` allows nothing: it cannot be read", comment.trim_end()),
+                "3:10 OBJ013 sub-index 00h of 2000h is UNSIGNED32 instead of UNSIGNED8".to_owned(),
+            ];
+            assert_eq!(codes(&text), expected);
+        }
     }
 }

@@ -72,3 +72,6 @@ macro_rules! include_dictionary {
         include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
     };
 }
+
+#[cfg(test)]
+mod tests;

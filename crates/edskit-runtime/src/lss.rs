@@ -1,7 +1,7 @@
 //! LSS slave: layer setting services (CiA 305 v2.2).
 
 use crate::context::Context;
-use crate::storage::Record;
+use crate::storage::{Reader, Record};
 use crate::{Frame, MOST_DATA, Reset};
 use edskit_types::{Bitrate, CanId, Index, NodeId};
 
@@ -242,7 +242,7 @@ impl Context<'_> {
     /// The node-ID that LSS has stored: `None` where nothing right is stored, and `Some(None)` for "unconfigured".
     pub(crate) fn stored_node_id(&mut self) -> Option<Option<NodeId>> {
         let mut record = [0; 6];
-        let length = self.storage.read(Record::Lss, 0, &mut record).ok()?;
+        let length = Reader::new(self.storage, Record::Lss).read(&mut record).ok()?;
         let [node_id, not_node_id, low, high, not_low, not_high] = record;
         let is_right =
             length == record.len() && node_id == !not_node_id && low == !not_low && high == !not_high;

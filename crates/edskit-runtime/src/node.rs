@@ -27,7 +27,7 @@ pub struct Settings {
 impl Default for Settings {
     /// Node-ID 1, no self-start, every bit rate.
     fn default() -> Self {
-        Self { node_id: Some(NodeId::MIN), starts_by_itself: false, bit_rates: &Bitrate::ALL }
+        Self { node_id: Some(NodeId::MIN), starts_by_itself: false, bit_rates: Bitrate::ALL }
     }
 }
 

@@ -43,6 +43,28 @@ pub trait Storage {
     fn erase(&mut self, record: Record) -> Result<(), StorageError>;
 }
 
+impl<T: Storage + ?Sized> Storage for &mut T {
+    fn read(&mut self, record: Record, offset: u32, buffer: &mut [u8]) -> Result<usize, StorageError> {
+        (**self).read(record, offset, buffer)
+    }
+
+    fn begin(&mut self, record: Record) -> Result<(), StorageError> {
+        (**self).begin(record)
+    }
+
+    fn write(&mut self, record: Record, data: &[u8]) -> Result<(), StorageError> {
+        (**self).write(record, data)
+    }
+
+    fn commit(&mut self, record: Record) -> Result<(), StorageError> {
+        (**self).commit(record)
+    }
+
+    fn erase(&mut self, record: Record) -> Result<(), StorageError> {
+        (**self).erase(record)
+    }
+}
+
 /// The memory did not do what it should.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct StorageError;
@@ -169,7 +191,7 @@ impl Context<'_> {
 
     /// The length of the values in a record; `None` where there is no record.
     fn check_record(&mut self, record: Record) -> Result<Option<u32>, StorageError> {
-        let mut reader = Reader { storage: self.storage, record, offset: 0 };
+        let mut reader = Reader::new(self.storage, record);
         let mut crc = Crc::new();
         let mut header = [0; HEADER];
         match reader.read(&mut header)? {
@@ -253,15 +275,20 @@ impl Writer<'_> {
     }
 }
 
-struct Reader<'a> {
+pub(crate) struct Reader<'a> {
     storage: &'a mut dyn Storage,
     record: Record,
     offset: u32,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// Reads a record from its beginning.
+    pub(crate) fn new(storage: &'a mut dyn Storage, record: Record) -> Self {
+        Self { storage, record, offset: 0 }
+    }
+
     /// Fills the buffer as far as the record goes.
-    fn read(&mut self, buffer: &mut [u8]) -> Result<usize, StorageError> {
+    pub(crate) fn read(&mut self, buffer: &mut [u8]) -> Result<usize, StorageError> {
         let mut done = 0;
         while let Some(rest) = buffer.get_mut(done..).filter(|rest| !rest.is_empty()) {
             match self.storage.read(self.record, self.offset, rest)? {

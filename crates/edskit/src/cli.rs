@@ -3,8 +3,10 @@
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
+use edskit_host::Address;
 use edskit_lint::Severity;
 use edskit_types::NodeId;
+use std::net::SocketAddr;
 use std::path::PathBuf;
 
 /// Lint, format and read CANopen EDS and DCF files (CiA 306).
@@ -26,6 +28,8 @@ pub(crate) enum Command {
     Show(ShowArguments),
     /// Check parameter files of devices
     Config(ConfigArguments),
+    /// Run the device that a file describes as a live node
+    Run(RunArguments),
     /// Say what rules report, why, and what to write instead
     Explain(ExplainArguments),
     /// Print a completion script for a shell
@@ -241,6 +245,33 @@ pub(crate) enum ConfigFormat {
     /// Source excerpts with labels, then a table of the PDOs
     Human,
     /// JSON
+    Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct RunArguments {
+    /// An EDS or DCF
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// The node-ID; that of a DCF if it has one, else 1
+    #[arg(long, value_parser = parse_node_id)]
+    pub(crate) node_id: Option<NodeId>,
+    /// The bus: `hub` starts one in this process, `socketcand:HOST:PORT`, `slcan:HOST:PORT` and `socketcan:can0` join one
+    #[arg(long, value_name = "ADDRESS", default_value = "hub")]
+    pub(crate) bus: Address,
+    /// Where the hub listens for socketcand, and on the next port for SLCAN; port 0 takes free ones
+    #[arg(long, value_name = "ADDR:PORT")]
+    pub(crate) listen: Option<SocketAddr>,
+    /// How events are printed
+    #[arg(long, value_enum, default_value_t = LogFormat::Text)]
+    pub(crate) log: LogFormat,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum LogFormat {
+    /// Lines of text
+    Text,
+    /// A JSON object for each line
     Json,
 }
 

@@ -13,6 +13,7 @@ mod lint;
 mod positions;
 mod printable;
 mod profiles;
+mod run;
 mod settings;
 mod show;
 mod streams;
@@ -35,6 +36,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams)
         cli::Command::Fmt(arguments) => fmt::run(&arguments, streams),
         cli::Command::Show(arguments) => show::run(&arguments, streams),
         cli::Command::Config(arguments) => config::run(&arguments, streams),
+        cli::Command::Run(arguments) => run::run(&arguments, streams),
         cli::Command::Explain(arguments) => explain::run(&arguments, streams),
         cli::Command::Completions { shell } => generated::completions(shell, streams),
         cli::Command::Man => generated::man(streams),

@@ -9,9 +9,14 @@ use std::process::{ExitCode, Stdio};
 const DOCUMENTS: &[(&str, &str)] =
     &[("docs/rules.md", "markdown"), ("docs/cross-reference.md", "cross-reference")];
 
+/// The report on real files, which needs them.
+const FIELD_REPORT: (&str, &[&str]) =
+    ("docs/field-report.md", &["run", "--quiet", "--package", "edskit-tests", "--bin", "field-report"]);
+
 pub(crate) fn run() -> ExitCode {
     for (path, format) in DOCUMENTS {
-        if let Err(error) = write(path, format) {
+        let explain = ["run", "--quiet", "--package", "edskit", "--", "explain", "--all", "--format", format];
+        if let Err(error) = write(path, &explain) {
             say(format_args!("{path}: {error}"));
             return ExitCode::FAILURE;
         }
@@ -34,9 +39,22 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
-fn write(path: &str, format: &str) -> Result<(), String> {
-    let explain = ["run", "--quiet", "--package", "edskit", "--", "explain", "--all", "--format", format];
-    let printed = cargo(&explain).stderr(Stdio::inherit()).output().map_err(|error| error.to_string())?;
+pub(crate) fn run_field_report() -> ExitCode {
+    let (path, arguments) = FIELD_REPORT;
+    match write(path, arguments) {
+        Ok(()) => {
+            say(format_args!("{path} is written"));
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            say(format_args!("{path}: {error}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn write(path: &str, arguments: &[&str]) -> Result<(), String> {
+    let printed = cargo(arguments).stderr(Stdio::inherit()).output().map_err(|error| error.to_string())?;
     if !printed.status.success() {
         return Err(printed.status.to_string());
     }

@@ -1,5 +1,6 @@
 //! Tasks of this repository: `cargo xtask`.
 
+mod conformance;
 mod docs;
 mod python;
 mod step;
@@ -14,8 +15,9 @@ const USAGE: &str = "\
 Usage: cargo xtask TASK
 
 Tasks:
-  test  Everything that has to hold: formatting, lints, tests, documents, benchmarks that compile
-  docs  Write the generated documents again
+  test          Everything that has to hold: formatting, lints, tests, documents, benchmarks that compile
+  docs          Write the generated documents again
+  field-report  Write docs/field-report.md again; needs the shared folder
 ";
 
 fn main() -> ExitCode {
@@ -23,6 +25,7 @@ fn main() -> ExitCode {
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["test"] => test::run_all(),
         ["docs"] => docs::run(),
+        ["field-report"] => docs::run_field_report(),
         ["help" | "--help" | "-h"] => {
             say(USAGE);
             ExitCode::SUCCESS

@@ -7,30 +7,35 @@ use std::path::PathBuf;
 
 /// Where the pinned packages are installed; `benches/compare` has the same place.
 const VENV: &str = "target/compare-venv";
+const REQUIREMENTS: &str = "tests/corpus/requirements.txt";
 
 /// Whether `tests/corpus/independent.tsv` is what the two readers find today.
 pub(crate) fn independent_reading() -> Outcome {
-    let shared = env::var_os("EDSKIT_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from);
-    let corpus = shared.join("corpus/files");
+    let corpus = shared().join("corpus/files");
     if !corpus.is_dir() {
         return Outcome::LeftOut(format!("{} is no folder", corpus.display()));
     }
-    let python = match installed_python() {
+    let python = match installed(VENV, REQUIREMENTS) {
         Ok(python) => python,
         Err(reason) => return Outcome::LeftOut(reason),
     };
     run(command(python, &["tests/corpus/independent_reading.py", "--check"]).arg(corpus))
 }
 
-/// The interpreter of the virtual environment, which is made where it is missing.
-fn installed_python() -> Result<PathBuf, String> {
-    let python = root().join(VENV).join("bin/python");
+/// The shared folder, whether or not it is there.
+pub(crate) fn shared() -> PathBuf {
+    env::var_os("EDSKIT_SHARED").map_or_else(|| root().join("../shared"), PathBuf::from)
+}
+
+/// The interpreter of a virtual environment with these packages; it is made where it is missing.
+pub(crate) fn installed(venv: &str, requirements: &str) -> Result<PathBuf, String> {
+    let python = root().join(venv).join("bin/python");
     if !python.exists() {
-        needed("python3 cannot make a virtual environment", "python3".into(), &["-m", "venv", VENV])?;
+        needed("python3 cannot make a virtual environment", "python3".into(), &["-m", "venv", venv])?;
     }
     let install = ["-m", "pip", "--quiet", "--disable-pip-version-check", "install", "-r"];
-    let install = [&install[..], &["tests/corpus/requirements.txt"]].concat();
-    needed("tests/corpus/requirements.txt cannot be installed", python.clone(), &install)?;
+    let install = [&install[..], &[requirements]].concat();
+    needed(&format!("{requirements} cannot be installed"), python.clone(), &install)?;
     Ok(python)
 }
 

@@ -1,7 +1,7 @@
 //! `cargo xtask test`: the one command that says whether everything holds.
 
 use crate::step::{Outcome, cargo, run};
-use crate::{is_ci, python, say};
+use crate::{conformance, is_ci, python, say};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -12,11 +12,23 @@ type Step = (&'static str, fn() -> Outcome);
 const STEPS: &[Step] = &[
     ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
     ("lints", || run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
+    ("lints of what is behind a feature", || {
+        run(&mut cargo(&[
+            "clippy",
+            "--package=edskit-host",
+            "--features=socketcan",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ]))
+    }),
     ("tests", || run(&mut cargo(&["test", "--workspace"]))),
     ("documentation", documentation),
     ("benchmarks compile", || run(&mut cargo(&["bench", "-p", "edskit-benches", "--no-run"]))),
     ("fuzz targets compile", fuzz_targets),
     ("independent reading of the corpus", python::independent_reading),
+    ("conformance of a loaded file", conformance::of_a_loaded_file),
 ];
 
 /// Runs every step, also behind one that failed, and ends with a summary.

@@ -4,6 +4,7 @@ use super::{Datasheet, Entry, Field, Section};
 use crate::key::KeyName;
 use crate::section::SectionKind;
 use core::ops::Deref;
+use std::collections::BTreeMap;
 
 /// One network: a section `[Topology]`, `[Topology2]` and so on.
 #[derive(Clone, Copy, Debug)]
@@ -60,21 +61,24 @@ impl<'a> Topology<'a> {
 
     /// The nodes that any key names, in ascending order.
     pub fn nodes(self) -> Vec<TopologyNode<'a>> {
-        const KEYS: [KeyName; 4] =
-            [KeyName::NodePresent, KeyName::NodeItemName, KeyName::NodeItemRefd, KeyName::NodeDcfName];
-        let keys = self.entries().map(|entry| entry.key()).filter(|key| KEYS.contains(&key.name));
-        let mut numbers: Vec<u16> = keys.map(|key| key.number).collect();
-        numbers.sort_unstable();
-        numbers.dedup();
-        let entry = |name, number| self.numbered(name, number).filter(|entry| !entry.is_empty());
-        let node = |number| TopologyNode {
-            node_id: number,
-            present: entry(KeyName::NodePresent, number).map(Entry::unsigned),
-            name: entry(KeyName::NodeItemName, number),
-            refd: entry(KeyName::NodeItemRefd, number),
-            dcf_name: entry(KeyName::NodeDcfName, number),
+        let mut nodes: BTreeMap<u16, [Option<Entry<'a>>; 4]> = BTreeMap::new();
+        for entry in self.entries() {
+            let key = entry.key();
+            let place = match key.name {
+                KeyName::NodePresent => 0,
+                KeyName::NodeItemName => 1,
+                KeyName::NodeItemRefd => 2,
+                KeyName::NodeDcfName => 3,
+                _ => continue,
+            };
+            nodes.entry(key.number).or_default()[place].get_or_insert(entry);
+        }
+        let node = |(node_id, entries): (u16, [Option<Entry<'a>>; 4])| {
+            let [present, name, refd, dcf_name] =
+                entries.map(|entry| entry.filter(|entry| !entry.is_empty()));
+            TopologyNode { node_id, present: present.map(Entry::unsigned), name, refd, dcf_name }
         };
-        numbers.into_iter().map(node).collect()
+        nodes.into_iter().map(node).collect()
     }
 }
 

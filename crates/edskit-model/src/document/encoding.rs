@@ -55,6 +55,15 @@ impl Encoding {
         bytes
     }
 
+    /// Whether every character of `text` can be written without a change of the encoding.
+    pub fn can_encode(self, text: &str) -> bool {
+        match self {
+            Self::Ascii => text.is_ascii(),
+            Self::Utf8 => true,
+            Self::Windows1252 => text.is_ascii() || !encoding_rs::WINDOWS_1252.encode(text).2,
+        }
+    }
+
     /// The text that `bytes` stand for.
     pub fn decode(self, bytes: &[u8]) -> Cow<'_, str> {
         match self {

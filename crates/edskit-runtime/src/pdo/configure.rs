@@ -45,7 +45,7 @@ impl Context<'_> {
 
     /// Gives a PDO its place among those at work; false where there is none.
     fn add(&mut self, place: Place, position: usize, slots: Slots) -> bool {
-        let number = place.number;
+        let number = place.number + 1;
         match place.direction {
             PdoDirection::Receive => {
                 let Some(rpdo) = self.rpdos.get_mut(position) else { return false };
@@ -59,12 +59,12 @@ impl Context<'_> {
         true
     }
 
-    fn rpdo(&mut self, number: u16) -> Option<&mut Rpdo> {
-        self.rpdos.iter_mut().find(|rpdo| rpdo.number == number)
+    fn rpdo(&mut self, place: Place) -> Option<&mut Rpdo> {
+        self.rpdos.iter_mut().find(|rpdo| rpdo.number == place.number + 1)
     }
 
-    fn tpdo(&mut self, number: u16) -> Option<&mut Tpdo> {
-        self.tpdos.iter_mut().find(|tpdo| tpdo.number == number)
+    fn tpdo(&mut self, place: Place) -> Option<&mut Tpdo> {
+        self.tpdos.iter_mut().find(|tpdo| tpdo.number == place.number + 1)
     }
 
     fn cob_id_of(&self, place: Place) -> CobId {
@@ -73,8 +73,8 @@ impl Context<'_> {
 
     fn slots_of(&mut self, place: Place) -> Slots {
         match place.direction {
-            PdoDirection::Receive => self.rpdo(place.number).map_or(Slots::NONE, |rpdo| rpdo.slots),
-            PdoDirection::Transmit => self.tpdo(place.number).map_or(Slots::NONE, |tpdo| tpdo.slots),
+            PdoDirection::Receive => self.rpdo(place).map_or(Slots::NONE, |rpdo| rpdo.slots),
+            PdoDirection::Transmit => self.tpdo(place).map_or(Slots::NONE, |tpdo| tpdo.slots),
         }
     }
 
@@ -92,7 +92,7 @@ impl Context<'_> {
         let (now, is_operational) = (self.now, self.core.state == NmtState::Operational);
         match place.direction {
             PdoDirection::Receive => {
-                let Some(rpdo) = self.rpdo(place.number) else { return };
+                let Some(rpdo) = self.rpdo(place) else { return };
                 rpdo.cob_id = cob_id;
                 rpdo.transmission = transmission;
                 rpdo.event_time = event_time;
@@ -101,7 +101,7 @@ impl Context<'_> {
                 }
             }
             PdoDirection::Transmit => {
-                let Some(tpdo) = self.tpdo(place.number) else { return };
+                let Some(tpdo) = self.tpdo(place) else { return };
                 let begins = cob_id.is_valid() && !tpdo.cob_id.is_valid();
                 tpdo.cob_id = cob_id;
                 tpdo.transmission = transmission;
@@ -129,12 +129,12 @@ impl Context<'_> {
         let loaded = mapped.unwrap_or(Slots { count: 0, bits: 0, ..slots });
         match place.direction {
             PdoDirection::Receive => {
-                if let Some(rpdo) = self.rpdo(place.number) {
+                if let Some(rpdo) = self.rpdo(place) {
                     rpdo.slots = loaded;
                 }
             }
             PdoDirection::Transmit => {
-                if let Some(tpdo) = self.tpdo(place.number) {
+                if let Some(tpdo) = self.tpdo(place) {
                     tpdo.slots = loaded;
                     tpdo.is_mapping_invalid = mapped.is_err();
                 }

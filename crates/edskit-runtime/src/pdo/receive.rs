@@ -11,7 +11,7 @@ use edskit_types::{CanId, CobId, NmtState, PdoDirection, TransmissionType};
 /// An RPDO at work.
 #[derive(Clone, Copy, Debug)]
 pub struct Rpdo {
-    /// Its number from 0.
+    /// Its number from 1; 0 for a place that no PDO takes.
     pub(super) number: u16,
     pub(super) cob_id: CobId,
     pub(super) transmission: TransmissionType,
@@ -62,7 +62,7 @@ impl Context<'_> {
 
     fn take(&mut self, place: usize, frame: &Frame) {
         let Some(rpdo) = self.rpdos.get_mut(place) else { return };
-        let number = rpdo.number + 1;
+        let number = rpdo.number;
         let Some(data) = frame.data().get(..rpdo.slots.bytes()) else {
             let [low, high] = number.to_le_bytes();
             let length = frame.data().len() as u8;
@@ -93,7 +93,7 @@ impl Context<'_> {
         for place in 0..self.rpdos.len() {
             let Some(rpdo) = self.rpdos.get_mut(place) else { continue };
             let Some(data) = rpdo.waiting.take() else { continue };
-            let (number, slots) = (rpdo.number + 1, rpdo.slots);
+            let (number, slots) = (rpdo.number, rpdo.slots);
             scatter(&mut self.objects, slots.of(self.mapped), data);
             self.app.rpdo_received(&mut self.objects, number);
         }
@@ -104,7 +104,7 @@ impl Context<'_> {
             let Some(rpdo) = self.rpdos.get_mut(place) else { continue };
             if rpdo.deadline.is_due(self.now) {
                 rpdo.deadline = Timer::OFF;
-                let number = rpdo.number + 1;
+                let number = rpdo.number;
                 let [low, high] = number.to_le_bytes();
                 self.raise(Error::RPDO_TIME_OUT, number, [low, high, 0, 0, 0]);
                 self.app.rpdo_timed_out(&mut self.objects, number);

@@ -11,7 +11,7 @@ use edskit_types::{CanId, CobId, NmtState, PdoDirection, Transmission, Transmiss
 /// A TPDO at work.
 #[derive(Clone, Copy, Debug)]
 pub struct Tpdo {
-    /// Its number from 0.
+    /// Its number from 1; 0 for a place that no PDO takes.
     pub(super) number: u16,
     pub(super) cob_id: CobId,
     pub(super) transmission: TransmissionType,
@@ -139,7 +139,7 @@ impl Context<'_> {
     /// An event of the TPDO with this number from 1 has happened.
     pub(crate) fn tpdo_event(&mut self, number: u16) {
         if self.core.state == NmtState::Operational {
-            let is_it = |tpdo: &&mut Tpdo| tpdo.number + 1 == number;
+            let is_it = |tpdo: &&mut Tpdo| tpdo.number == number;
             if let Some(tpdo) = self.tpdos.iter_mut().find(is_it) {
                 tpdo.is_due = true;
             }
@@ -231,7 +231,7 @@ impl Context<'_> {
     fn gather(&mut self, place: usize) -> u64 {
         let Some(tpdo) = self.tpdos.get(place) else { return 0 };
         let slots = tpdo.slots;
-        self.app.tpdo_due(&mut self.objects, tpdo.number + 1);
+        self.app.tpdo_due(&mut self.objects, tpdo.number);
         for mapped in slots.of(self.mapped) {
             let entry = mapped.position().and_then(|position| self.objects.table.entry(position));
             if let Some(entry) = entry {
@@ -268,7 +268,7 @@ impl Context<'_> {
 
     /// Why the TPDO with this number from 1 is not being sent at the moment.
     pub(crate) fn why_not_sent(&self, number: u16) -> NotSent {
-        let Some(tpdo) = self.tpdos.iter().find(|tpdo| tpdo.number + 1 == number) else {
+        let Some(tpdo) = self.tpdos.iter().find(|tpdo| tpdo.number == number && number > 0) else {
             return NotSent::NoSuchPdo;
         };
         match tpdo.meaning() {

@@ -150,7 +150,9 @@ impl Context<'_> {
         if ![REQUEST, RESPONSE].contains(&sub_index.0) {
             return Ok(());
         }
-        self.check_cob_id(new)?;
+        // The identifiers of other nodes' default SDOs are what further channels are made of, although 7.3.5 restricts them.
+        let is_default_sdo = matches!(new.can_id().raw(), 0x581..=0x5FF | 0x601..=0x67F);
+        self.check_cob_id(if is_default_sdo { CobId(new.0 | CobId::BIT_31) } else { new })?;
         let old: u32 = self.objects.value(index, sub_index.0).unwrap_or(CobId::BIT_31);
         let old = CobId(old);
         if old.is_valid() && new.is_valid() && old.can_id() != new.can_id() {

@@ -13,6 +13,7 @@ rule! {
     /// Collects what the present nodes of a network send, by the DCFs that the nodelist names: their TPDOs in use,
     /// EMCY, SDO answers and heartbeats, each at the node-ID of the nodelist, and compares it with each other and with
     /// SYNC and TIME. Two producers of SYNC or of TIME are reported too. Without the DCFs it says nothing.
+    /// A node that has the DCF of another one is left to CPJ002.
     ///
     /// ## Why is this bad
     /// When both send at the same time, the frames destroy each other and both nodes go off the bus in the end.
@@ -95,7 +96,12 @@ const PDOS_OF_NODE: u16 = 512;
 
 fn check(context: &Context<'_>, report: &mut Report) {
     for topology in context.sheet.topologies() {
-        let nodes = network::nodes(context, topology);
+        let mut nodes = network::nodes(context, topology);
+        // The DCF of another node is the matter of CPJ002.
+        nodes.retain(|node| {
+            let own = node.dcf.commissioning().and_then(|section| section.node_id()?.known());
+            own.is_none_or(|own| own == node.id.get())
+        });
         let mut claims: Vec<Claim> = Vec::new();
         // Of SYNC and TIME only one node is the producer.
         let mut producers: [Option<&Node<'_>>; 2] = [None, None];
@@ -217,6 +223,7 @@ mod tests {
     fn what_two_nodes_send() {
         let own = pdo("1800", "$NODEID+0x180");
         assert!(found(&own, &own).is_empty());
+        assert!(found(&own, &format!("[DeviceComissioning]\nNodeID=6\n{}", pdo("1800", "0x185"))).is_empty());
         assert!(found(&own, &pdo("1400", "0x185")).is_empty(), "an RPDO listens");
         assert_eq!(
             found(&pdo("1801", "0x1FF"), &own),

@@ -1,3 +1,4 @@
+use super::judged::{JudgedCobId, Judgement};
 use super::parameters::{self, Parameter};
 use crate::evaluate::{commissioned, node_ids};
 use crate::rule::rule;
@@ -12,7 +13,7 @@ rule! {
     /// Compares the CAN-IDs of all messages in use: PDOs, SYNC, TIME, EMCY (its own and those it listens to), SDO
     /// channels, its heartbeat and those it monitors. Two RPDOs may share one. In an EDS only what collides at every
     /// node-ID is reported. An RPDO that listens to another message of its own device, and an SDO client of its own
-    /// server, are warnings: such values are there to be changed.
+    /// server, are warnings: such values are there to be changed. EMCY at the bare 80h is left to COB002.
     ///
     /// ## Why is this bad
     /// Whoever receives such a frame cannot tell which of the two it is, and two nodes that send it at once destroy it.
@@ -73,8 +74,12 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    let mut parameters: Vec<Parameter<'_>> =
-        context.cob_ids().iter().map(|cob_id| cob_id.parameter).collect();
+    // EMCY at 80h has the CAN-ID of SYNC only because the node-ID was forgotten, which is the matter of COB002.
+    let is_bare_emcy = |cob_id: &&JudgedCobId<'_>| {
+        cob_id.parameter.party == Party::Emcy && matches!(cob_id.judgement, Some(Judgement::Bare(_)))
+    };
+    let cob_ids = context.cob_ids().iter().filter(|cob_id| !is_bare_emcy(cob_id));
+    let mut parameters: Vec<Parameter<'_>> = cob_ids.map(|cob_id| cob_id.parameter).collect();
     parameters.extend(parameters::sync(context.sheet));
     let mut node_ids = node_ids(context);
     let Some(first) = node_ids.next() else { return };
@@ -163,6 +168,8 @@ mod tests {
             found(&("[1005]\nDataType=7\nDefaultValue=0x90\n".to_owned() + &pdo("1800", "0x90"))),
             ["8:14 error: TPDO1 and SYNC both have the CAN-ID 090h"]
         );
+        let sync = "[1005]\nDataType=7\nDefaultValue=0x80\n";
+        assert!(found(&format!("{sync}[1014]\nDataType=7\nDefaultValue=0x80\n")).is_empty(), "COB002");
         assert!(found(&(pdo("1400", "0x205") + &pdo("1401", "0x205"))).is_empty());
         assert!(found(&(pdo("1800", "0x185") + &pdo("1801", "0x80000185"))).is_empty());
         assert!(found(&(pdo("1800", "0x180") + &pdo("1801", "0x180"))).is_empty(), "COB001");

@@ -10,8 +10,8 @@ rule! {
     /// ## What it does
     /// Reports a PDO, an EMCY or TIME message or an additional SDO server that is in use with a CAN-ID that CiA 301
     /// keeps free. The COB-IDs of an EDS are evaluated at node-ID 1 and 127; one that is restricted for some node-IDs
-    /// only is a warning, and so is an SDO server with zeros for COB-IDs, which nobody has set up. The SYNC message is
-    /// the matter of COM005.
+    /// only is a warning, and so is a COB-ID of 0, by which many devices mean that nobody has set it up. The SYNC
+    /// message is the matter of COM005.
     ///
     /// ## Why is this bad
     /// The range belongs to another service, such as NMT or the default SDO. On the bus the two disturb each other, and
@@ -63,9 +63,9 @@ fn check(context: &Context<'_>, report: &mut Report) {
             continue;
         };
         let (party, value) = (parameter.party, parameter.value);
-        let is_empty_channel = matches!(party, Party::Sdo { .. }) && cob_id.0 == 0;
+        let is_unset = cob_id.0 == 0;
         // Of a channel that nobody has set up, one of the two COB-IDs is enough.
-        if is_empty_channel && matches!(party, Party::Sdo { message: SdoMessage::Response, .. }) {
+        if is_unset && matches!(party, Party::Sdo { message: SdoMessage::Response, .. }) {
             continue;
         }
         let at = match value.depends_on_node_id() && commissioned(context).is_none() {
@@ -75,7 +75,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
         let message =
             format!("{party} has the CAN-ID {}{at}, which is restricted: {restriction}", cob_id.can_id());
         let finding = report.add(value.span(), message);
-        if !always || is_empty_channel {
+        if !always || is_unset {
             finding.severity(Severity::Warning);
         }
         let is_tpdo = matches!(party, Party::Pdo { direction: PdoDirection::Transmit, .. });
@@ -122,7 +122,7 @@ mod tests {
         );
         assert_eq!(
             found("1800", "0"),
-            "5:14 error: TPDO1 has the CAN-ID 000h, which is restricted: 000h (NMT)"
+            "5:14 warning: TPDO1 has the CAN-ID 000h, which is restricted: 000h (NMT)"
         );
         for (index, value) in
             [("1800", "0x80000180"), ("1800", "0x181"), ("1280", "0x605"), ("1200", "0x605")]

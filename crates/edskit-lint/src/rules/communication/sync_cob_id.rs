@@ -1,6 +1,6 @@
 use crate::evaluate::{Effective, effective, node_ids};
 use crate::rule::rule;
-use crate::{Context, Report};
+use crate::{Context, Finding, Report, Severity};
 use edskit_types::{CobId, IdentifierRules, Index};
 
 rule! {
@@ -49,7 +49,10 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let Some(value) = effective(context.sheet, Index::SYNC_COB_ID, 0) else { return };
     let problem = node_ids(context).find_map(|node_id| problem(value.cob_id_at(node_id)?));
     if let Some(problem) = problem {
-        complain(value, problem, report);
+        let finding = complain(value, problem, report);
+        if value.constant::<u32>() == Some(0) {
+            finding.severity(Severity::Warning);
+        }
     }
 }
 
@@ -64,10 +67,10 @@ fn problem(cob_id: CobId) -> Option<String> {
     Some(format!("the SYNC message has the CAN-ID {can_id}, but {restriction} cannot be used for it"))
 }
 
-fn complain(value: Effective<'_>, problem: String, report: &mut Report) {
+fn complain<'a>(value: Effective<'_>, problem: String, report: &'a mut Report) -> &'a mut Finding {
     report
         .add(value.span(), problem)
-        .help("write `0x80`, or `0x40000080` for a device that produces the SYNC message");
+        .help("write `0x80`, or `0x40000080` for a device that produces the SYNC message")
 }
 
 #[cfg(test)]

@@ -3,15 +3,15 @@ use crate::profile::{alternatives, type_name};
 use crate::rule::rule;
 use crate::{Context, Report, Severity, Variable};
 use edskit_model::{Field, SubObject};
-use edskit_types::{DataType, Index};
+use edskit_types::{DataType, DataTypeKind, Index};
 
 rule! {
     /// An object has another data type than its profile prescribes
     ///
     /// ## What it does
     /// Reports a data type that differs from what CiA 301, the device profile named by 1000h, or a profile given with
-    /// `--profile` prescribes. Outside the communication area it is a warning. Sub-index 00h is left to OBJ013, and an
-    /// index that is no data type at all to VAL001.
+    /// `--profile` prescribes. Where it is not CiA 301 that says so it is a warning. Sub-index 00h is left to OBJ013, and to
+    /// VAL001 an index that is no data type at all, and a record type on a single value.
     ///
     /// ## Why is this bad
     /// A master that knows the profile transfers as many bytes as it prescribes. With another length the device
@@ -49,12 +49,21 @@ rule! {
     }
 }
 
+/// The one profile that every CANopen device follows.
+const CIA_301: &str = "CiA 301";
+
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     if variable.prescriptions.is_empty() {
         return;
     }
     let Some(field) = variable.data_type else { return };
     let Some(data_type) = field.known().map(Index).filter(|&index| is_data_type(index)) else { return };
+    // A record type on a single value is the matter of VAL001.
+    if variable.holds_value()
+        && variable.standard_type.is_some_and(|known| known.kind() == DataTypeKind::Record)
+    {
+        return;
+    }
     for prescribed in variable.prescribed() {
         let types = &prescribed.attributes.types;
         if types.is_empty() || types.contains(&data_type) {
@@ -73,7 +82,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         );
         let finding = report.add(field.span(), message);
         finding.help(format!("write `DataType=0x{:04X}`", types[0]));
-        if !(0x1000..0x2000).contains(&variable.index.0) {
+        if prescribed.profile.name != CIA_301 {
             finding.severity(Severity::Warning);
         }
         return;
@@ -124,6 +133,7 @@ mod tests {
     fn several_types_can_be_right() {
         assert!(findings(&WRONG_DATATYPE, "[1022]\nDataType=5\n").is_empty());
         assert!(findings(&WRONG_DATATYPE, "[1022]\nDataType=6\n").is_empty());
+        assert!(findings(&WRONG_DATATYPE, "[1022]\nDataType=0x21\n").is_empty(), "VAL001");
         assert_eq!(
             findings(&WRONG_DATATYPE, "[1022]\nDataType=7\n"),
             [

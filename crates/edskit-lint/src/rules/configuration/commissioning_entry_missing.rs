@@ -62,10 +62,13 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for (missing, severity) in [(needed, Severity::Warning), (others, Severity::Info)] {
         let names: Vec<String> = missing.iter().map(|key| format!("`{}`", key.spelling())).collect();
         let [before @ .., last] = &names[..] else { continue };
+        let is_alone = before.is_empty();
         let names = if before.is_empty() { last.clone() } else { format!("{} or {last}", before.join(", ")) };
-        let finding = report.add(section.span(), format!("`[{}]` has no {names}", section.name()));
+        let alone = section.entry(missing[0]).filter(|_| is_alone);
+        let place = alone.map_or(section.span(), |empty| empty.span());
+        let finding = report.add(place, format!("`[{}]` has no {names}", section.name()));
         finding.severity(severity);
-        for entry in missing.iter().filter_map(|key| section.entry(*key)) {
+        for entry in missing.iter().filter_map(|key| section.entry(*key)).filter(|_| !is_alone) {
             finding.label(entry.span(), "empty, which counts as missing");
         }
         finding.help("add what is missing");
@@ -83,8 +86,8 @@ mod tests {
         assert_eq!(
             findings_in(&COMMISSIONING_ENTRY_MISSING, "a.dcf", text.as_bytes()),
             [
-                "1:1 warning: `[DeviceComissioning]` has no `NodeID`",
-                "1:1 info: `[DeviceComissioning]` has no `NodeName`, `NetworkName` or `LSS_SerialNumber`"
+                "1:1 info: `[DeviceComissioning]` has no `NodeName`, `NetworkName` or `LSS_SerialNumber`",
+                "2:1 warning: `[DeviceComissioning]` has no `NodeID`"
             ]
         );
         assert!(findings(&COMMISSIONING_ENTRY_MISSING, text).is_empty());

@@ -48,7 +48,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     report
         .add(entry.value_span(), format!("FileName is `{written}`, but the file is called `{actual}`"))
         .help(format!("write `FileName={actual}`"))
-        .safe_fix("Write the name of the file", vec![Edit::replace(entry.value_span(), actual)]);
+        .unsafe_fix("Write the name of the file", vec![Edit::replace(entry.value_span(), actual)]);
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 use super::timestamp::{Date, Time};
 use crate::inline_comment::value_length;
 use crate::rule::rule;
-use crate::{Context, Edit, Report};
+use crate::{Context, Edit, Report, Severity};
 use edskit_model::{Entry, KeyName};
 
 rule! {
@@ -9,7 +9,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports a `CreationTime` or `ModificationTime` that is not two digits from 01 to 12, a colon, two digits and
-    /// `AM` or `PM` directly behind them.
+    /// `AM` or `PM` directly behind them. Where only the 0 before the hour is missing, it is an info.
     ///
     /// ## Why is this bad
     /// Readers look at fixed columns. The 24-hour clock is what people write instead, and there the same digits mean
@@ -62,6 +62,9 @@ fn report_time(entry: Entry<'_>, report: &mut Report) {
     match Time::guess(raw) {
         Some(guess) => {
             let time = guess.time.to_string();
+            if time.strip_prefix('0').is_some_and(|short| short.as_bytes() == raw) {
+                finding.severity(Severity::Info);
+            }
             let edits = vec![Edit::replace(span, &time)];
             finding.help(format!("write `{name}={time}`"));
             if guess.is_certain {
@@ -90,7 +93,7 @@ mod tests {
         assert_eq!(
             findings(&TIME_FORMAT, text),
             [
-                "2:14 warning: CreationTime is `7:37AM`, which is not of the form `hh:mmAM` or `hh:mmPM`",
+                "2:14 info: CreationTime is `7:37AM`, which is not of the form `hh:mmAM` or `hh:mmPM`",
                 "3:18 warning: ModificationTime is `00:00AM`, which is not of the form `hh:mmAM` or `hh:mmPM`"
             ]
         );

@@ -58,7 +58,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
     if lacking.peek().is_none() {
         return;
     }
-    let elsewhere = described_elsewhere(context.sheet);
+    let mut elsewhere = described_elsewhere(context.sheet);
+    elsewhere.extend(context.hidden_sections().iter().filter_map(|kind| match kind {
+        SectionKind::Object(index) => Some(*index),
+        _ => None,
+    }));
     for item in lacking {
         let Some(index) = item.index.filter(|index| !elsewhere.contains(index)) else { continue };
         let section = format!("`[{index:X}]`");
@@ -102,6 +106,12 @@ mod tests {
                 "4:3 error: 2002h is listed, but has no section `[2002]`"
             ]
         );
+    }
+
+    #[test]
+    fn a_section_whose_header_lost_its_line_is_not_missing() {
+        let text = "[OptionalObjects]\n1=0x1008\n2=0x1017\n[1008]\nPDOMapping=0[1017]\nParameterName=a\n";
+        assert_eq!(findings(&LISTED_WITHOUT_SECTION, text), [""; 0]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 use super::parts::count_entry;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
-use edskit_model::{KeyName, ModuleSection, Section, SectionKind};
+use edskit_model::{KeyName, ModuleSection, Section, SectionKind, Span};
 
 rule! {
     /// A list of a modular device has another number of items than it says
@@ -55,14 +55,14 @@ fn check(context: &Context<'_>, report: &mut Report) {
 }
 
 fn check_list(section: Section<'_>, report: &mut Report) {
-    let mut numbers: Vec<u16> = section
+    let mut numbers: Vec<(u16, Span)> = section
         .all_numbered(KeyName::Item)
         .filter(|item| !item.is_empty())
-        .map(|item| item.key().number)
+        .map(|item| (item.key().number, item.key_span()))
         .collect();
     let name = section.name();
     numbers.sort_unstable();
-    numbers.dedup();
+    numbers.dedup_by_key(|(number, _)| *number);
     let items = if numbers.len() == 1 { "1 item".to_owned() } else { format!("{} items", numbers.len()) };
     let Some(entry) = count_entry(section) else {
         report
@@ -79,11 +79,11 @@ fn check_list(section: Section<'_>, report: &mut Report) {
                 format!("Write {}", numbers.len()),
                 vec![Edit::replace(entry.value_span(), numbers.len().to_string())],
             );
-    } else if let Some(missing) =
-        (1..=count).zip(&numbers).find_map(|(due, number)| (due != *number).then_some(due))
+    } else if let Some((missing, (next, place))) =
+        (1..=count).zip(&numbers).find(|(due, (number, _))| due != number)
     {
         report
-            .add(section.span(), format!("`[{name}]` has no item {missing}"))
+            .add(*place, format!("`[{name}]` has an item {next}, but no item {missing}"))
             .help(format!("number the items from 1 to {count}"));
     }
 }
@@ -105,7 +105,10 @@ mod tests {
             found("NrOfEntries=3\n1=1\n2="),
             ["2:13 error: NrOfEntries is 3, but `[ConnectedModules]` has 1 item"]
         );
-        assert_eq!(found("NrOfEntries=2\n1=1\n3=1"), ["1:1 error: `[ConnectedModules]` has no item 2"]);
+        assert_eq!(
+            found("NrOfEntries=2\n1=1\n3=1"),
+            ["4:1 error: `[ConnectedModules]` has an item 3, but no item 2"]
+        );
         assert_eq!(found("1=1\n2=1"), ["1:1 error: `[ConnectedModules]` has 2 items, but no `NrOfEntries`"]);
         assert_eq!(
             fixed(&MODULE_LIST_COUNT, "[M1SubExtends]\nNrOfEntries=0\n1=0x6000\n"),

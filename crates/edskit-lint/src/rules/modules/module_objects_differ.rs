@@ -1,7 +1,7 @@
 use super::parts::{self, Role};
 use crate::rule::rule;
 use crate::{Context, Report};
-use edskit_model::{Description, Section};
+use edskit_model::{Description, KeyName, Section};
 use edskit_types::Index;
 use std::collections::HashMap;
 
@@ -68,14 +68,17 @@ fn check(context: &Context<'_>, report: &mut Report) {
                 let Some(description) = section.description() else { continue };
                 let (other, earlier) = *first.entry(*index).or_insert((*section, description));
                 if other.id() != section.id()
-                    && let Some(what) = difference(earlier, description)
+                    && let Some((what, key)) = difference(earlier, description)
                 {
+                    let place = |section: &Section<'_>| {
+                        section.filled(key).map_or(section.span(), |entry| entry.value_span())
+                    };
                     report
                         .add(
-                            section.span(),
+                            place(section),
                             format!("`[{}]` and `[{}]` differ in {what}", section.name(), other.name()),
                         )
-                        .label(other.span(), "the first one")
+                        .label(place(&other), "the first one")
                         .help("describe the object alike in all modules");
                 }
             }
@@ -84,19 +87,19 @@ fn check(context: &Context<'_>, report: &mut Report) {
 }
 
 /// The first attribute in which two descriptions differ; what cannot be read may be anything.
-fn difference(a: Description<'_>, b: Description<'_>) -> Option<&'static str> {
+fn difference(a: Description<'_>, b: Description<'_>) -> Option<(&'static str, KeyName)> {
     fn differ<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {
         matches!((a, b), (Some(a), Some(b)) if a != b)
     }
     let data_type = |description: Description<'_>| description.data_type().and_then(|field| field.known());
     if differ(a.object_code(), b.object_code()) {
-        Some("the object code")
+        Some(("the object code", KeyName::ObjectType))
     } else if differ(data_type(a), data_type(b)) {
-        Some("the data type")
+        Some(("the data type", KeyName::DataType))
     } else if differ(a.access(), b.access()) {
-        Some("the access")
+        Some(("the access", KeyName::AccessType))
     } else if a.is_mappable() != b.is_mappable() {
-        Some("`PDOMapping`")
+        Some(("`PDOMapping`", KeyName::PdoMapping))
     } else {
         None
     }
@@ -119,7 +122,7 @@ mod tests {
         assert_eq!(found("ObjectType=7", "ObjectType="), "");
         assert_eq!(
             found("AccessType=ro", "AccessType=rw"),
-            "3:1 error: `[M2Fixed2000]` and `[M1Fixed2000]` differ in the access"
+            "4:12 error: `[M2Fixed2000]` and `[M1Fixed2000]` differ in the access"
         );
         assert!(found("ObjectType=8", "ObjectType=9").ends_with("the object code"));
         assert!(found("PDOMapping=1", "PDOMapping=0").ends_with("`PDOMapping`"));

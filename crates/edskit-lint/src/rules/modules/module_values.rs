@@ -8,6 +8,7 @@ rule! {
     /// ## What it does
     /// Reports a `Count` that is neither a number of sub-indices (`2`) nor `0;` and a number of bits (`0;4`), a
     /// `[MxSubExt...]` without `Count`, and an item of `[ConnectedModules]` that is not the number of a module.
+    /// A module that is described, but not counted, is left to MOD001.
     ///
     /// ## Why is this bad
     /// A tool cannot tell which sub-indices the module adds, or which module is plugged in.
@@ -63,7 +64,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
                     },
                 };
                 for entry in section.all_numbered(KeyName::Item).filter(|entry| !entry.is_empty()) {
-                    check_connected(entry, count, supported.map(|field| field.entry), report);
+                    check_connected(context, entry, count, supported.map(|field| field.entry), report);
                 }
             }
             _ => {}
@@ -88,9 +89,17 @@ fn check_count(entry: Entry<'_>, report: &mut Report) {
     );
 }
 
-fn check_connected(entry: Entry<'_>, count: u16, limit: Option<Entry<'_>>, report: &mut Report) {
+fn check_connected(
+    context: &Context<'_>,
+    entry: Entry<'_>,
+    count: u16,
+    limit: Option<Entry<'_>>,
+    report: &mut Report,
+) {
     let Some(module) = entry.unsigned::<u16>().known() else { return };
-    if (1..=count).contains(&module) {
+    // Where the module is described, the number of modules is wrong, which is the matter of MOD001.
+    let is_described = || context.sheet.section(SectionKind::Module(module, ModuleSection::Info)).is_some();
+    if (1..=count).contains(&module) || is_described() {
         return;
     }
     let message = match count {
@@ -140,6 +149,7 @@ mod tests {
                 "6:3 error: module 0 is connected, but the supported modules are 1 to 2"
             ]
         );
+        assert!(connected("[M1ModuleInfo]\n", "1=1").is_empty(), "MOD001");
         assert_eq!(connected("", "1=1"), ["3:3 error: module 1 is connected, but no module is supported"]);
     }
 }

@@ -2,14 +2,15 @@ use super::structure::belongs_elsewhere;
 use crate::rule::rule;
 use crate::similar::nearest;
 use crate::{Context, Edit, Report, Severity, Variable};
+use edskit_model::{Description, Field, Object, SubObject};
 use edskit_types::AccessType;
 
 rule! {
     /// AccessType is none of the six words
     ///
     /// ## What it does
-    /// Reports an `AccessType` that is not `ro`, `wo`, `rw`, `rwr`, `rww` or `const`. One of these words in upper case
-    /// is a warning.
+    /// Reports an `AccessType` that is not `ro`, `wo`, `rw`, `rwr`, `rww` or `const`. These words in upper case are a
+    /// warning, one for the file.
     ///
     /// ## Why is this bad
     /// A reader that does not know the word refuses the object or guesses the access. Many readers compare the word
@@ -45,16 +46,12 @@ rule! {
     }
 }
 
-fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
+fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(field) = variable.access_type else { return };
     match field.value {
         Ok(access) => {
-            if field.entry.raw() != access.as_str().as_bytes() {
-                report
-                    .add(field.span(), format!("access type `{}` is not in lower case", field.text()))
-                    .severity(Severity::Warning)
-                    .help(format!("write `{access}`"))
-                    .safe_fix("Write it in lower case", vec![Edit::replace(field.span(), access.as_str())]);
+            if !is_in_lower_case(field, access) && context.is_first(&ACCESS_TYPE_INVALID) {
+                upper_case(context, report);
             }
         }
         Err(_) if belongs_elsewhere(field.entry) => {}
@@ -69,6 +66,34 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
             };
         }
     }
+}
+
+fn is_in_lower_case(field: Field<'_, AccessType>, access: AccessType) -> bool {
+    field.entry.raw() == access.as_str().as_bytes()
+}
+
+/// All words in upper case at once: who writes one of them so writes all of them so.
+fn upper_case(context: &Context<'_>, report: &mut Report) {
+    let objects = context.sheet.objects().map(Object::description);
+    let subs = context.sheet.sub_objects().map(SubObject::description);
+    let fields = objects.chain(subs).filter_map(Description::access_type);
+    let mut words: Vec<_> = fields
+        .filter_map(|field| Some((field, field.known()?)))
+        .filter(|&(field, access)| !is_in_lower_case(field, access))
+        .collect();
+    words.sort_by_key(|(field, _)| field.span());
+    let Some(&(first, access)) = words.first() else { return };
+    let more = match words.len() - 1 {
+        0 => String::new(),
+        1 => ", nor is one more".to_owned(),
+        more => format!(", nor are {more} more"),
+    };
+    let edits = words.iter().map(|(field, access)| Edit::replace(field.span(), access.as_str())).collect();
+    report
+        .add(first.span(), format!("access type `{}` is not in lower case{more}", first.text()))
+        .severity(Severity::Warning)
+        .help(format!("write `{access}`"))
+        .safe_fix("Write lower case", edits);
 }
 
 /// The access type that a word in use elsewhere, or a slip, stands for.
@@ -92,11 +117,11 @@ mod tests {
 
     #[test]
     fn upper_case_is_a_warning_and_other_words_are_errors() {
-        let text = "[2000]\nAccessType=RW\n[2001]\nAccessType=UNKNOWN\n[2002]\nAccessType=rw\n[2003]\nAccessType=\n[2004]\nAccessType=ro ; read\n";
+        let text = "[2000]\nAccessType=RW\n[2001]\nAccessType=UNKNOWN\n[2002]\nAccessType=rw\n[2003]\nAccessType=\n[2004]\nAccessType=ro ; read\n[2004sub0]\nAccessType=Const\n";
         assert_eq!(
             findings(&ACCESS_TYPE_INVALID, text),
             [
-                "2:12 warning: access type `RW` is not in lower case",
+                "2:12 warning: access type `RW` is not in lower case, nor is one more",
                 "4:12 error: `UNKNOWN` is no access type"
             ]
         );

@@ -1,13 +1,15 @@
 use super::structure::needs_attributes;
+use crate::missing::place_of;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
+use edskit_model::KeyName;
 
 rule! {
     /// A value has no access type
     ///
     /// ## What it does
     /// Reports a VAR, DEFTYPE or sub-object without `AccessType`, and an object with `CompactSubObj` without one. A
-    /// DOMAIN needs none.
+    /// DOMAIN needs none. Where `DataType` is missing as well, OBJ003 says so for both.
     ///
     /// ## Why is this bad
     /// Without the access type a tool does not know whether it may read or write the value. Some assume `rw` and
@@ -45,11 +47,15 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    if variable.access_type.is_some() || !needs_attributes(context, variable) {
+    if variable.access_type.is_some() || variable.data_type.is_none() || !needs_attributes(context, variable)
+    {
         return;
     }
     report
-        .add(variable.description.section().span(), format!("{} has no AccessType", variable.place()))
+        .add(
+            place_of(variable.description.section(), KeyName::AccessType),
+            format!("{} has no AccessType", variable.place()),
+        )
         .help("write `AccessType=` with `ro`, `wo`, `rw`, `rwr`, `rww` or `const`");
 }
 
@@ -60,14 +66,15 @@ mod tests {
 
     #[test]
     fn only_what_holds_a_value_needs_access() {
-        let text = "[2000]\nObjectType=8\n[2000sub1]\nAccessType=\n[2001]\nObjectType=2\n[2002]\nObjectType=x\n\
-                    [2003]\nDataType=5\n[2004]\nObjectType=8\nCompactSubObj=0\n[2005]\nObjectType=9\nCompactSubObj=4\n";
+        let text = "[2000]\nObjectType=8\n[2000sub1]\nDataType=5\nAccessType=\n[2001]\nObjectType=2\n[2002]\nObjectType=x\n\
+                    [2003]\nDataType=5\n[2004]\nObjectType=8\nCompactSubObj=0\n[2005]\nObjectType=9\nCompactSubObj=4\nDataType=5\n\
+                    [2006]\nObjectType=7\n";
         assert_eq!(
             findings(&ACCESS_TYPE_MISSING, text),
             [
-                "3:1 error: 2000h sub-index 01h has no AccessType",
-                "9:1 error: 2003h has no AccessType",
-                "14:1 error: 2005h has no AccessType"
+                "5:1 error: 2000h sub-index 01h has no AccessType",
+                "10:1 error: 2003h has no AccessType",
+                "15:1 error: 2005h has no AccessType"
             ]
         );
     }

@@ -2,13 +2,14 @@ use super::structure::{elements, fixed_code};
 use crate::rule::rule;
 use crate::{Context, Report};
 use edskit_model::{Object, Span, SubObject};
-use edskit_types::{DataType, Index, ObjectCode};
+use edskit_types::{DataType, DataTypeKind, Index, ObjectCode};
 
 rule! {
     /// The elements of an ARRAY have different types
     ///
     /// ## What it does
     /// Reports an ARRAY in which an element from sub-index 01h on has another data type than the one before it.
+    /// The ARRAYs of CiA 301 are left to COM002, and types that no element can have to VAL001.
     ///
     /// ## Why is this bad
     /// All elements of an ARRAY have one type; elements of different types make a RECORD. Tools that take the type of
@@ -61,10 +62,9 @@ rule! {
 }
 
 fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
-    // OBJ016: these are RECORDs, and of course their members differ.
-    if object.object_code() != Some(ObjectCode::Array)
-        || fixed_code(object.index()) == Some(ObjectCode::Record)
-    {
+    // RECORDs that are described as ARRAYs are the matter of OBJ016, and of course their members differ. Of the ARRAYs of
+    // CiA 301 a wrong type is the matter of COM002.
+    if object.object_code() != Some(ObjectCode::Array) || fixed_code(object.index()).is_some() {
         return;
     }
     let mut typed = elements(object).filter_map(|sub| Some((type_of(sub)?, sub)));
@@ -85,9 +85,14 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
         .help("write `ObjectType=0x9` for a RECORD, or give all elements one data type");
 }
 
+/// The data type that an element gives itself, or has as a DOMAIN. What no element can have is the matter of VAL001.
 fn type_of(sub: SubObject<'_>) -> Option<u16> {
+    let is_possible = |index: &u16| match DataType::from_index(Index(*index)) {
+        Some(known) => known.kind() != DataTypeKind::Record,
+        None => (0x0040..=0x025F).contains(index),
+    };
     match sub.data_type() {
-        Some(field) => field.known(),
+        Some(field) => field.known().filter(is_possible),
         None => sub.standard_type().map(|data_type| data_type.index().0),
     }
 }
@@ -113,6 +118,21 @@ mod tests {
     fn sub_indexes_00h_and_ffh_are_no_elements() {
         let text = "[2000]\nObjectType=8\n[2000sub0]\nDataType=5\n[2000sub1]\nDataType=6\n[2000sub2]\nDataType=0x0006\n[2000subFF]\nDataType=7\n";
         assert_eq!(findings(&ARRAY_MIXED_TYPES, text), [""; 0]);
+    }
+
+    #[test]
+    fn types_that_do_not_exist_and_arrays_of_cia_301_are_left_to_their_rules() {
+        let array = |index: &str, second: &str| {
+            let text = format!(
+                "[{index}]\nObjectType=8\n[{index}sub1]\nDataType=7\n[{index}sub2]\nDataType={second}\n"
+            );
+            findings(&ARRAY_MIXED_TYPES, &text)
+        };
+        for second in ["0x17", "0", "0x6040", "0x21"] {
+            assert_eq!(array("2000", second), [""; 0], "VAL001: {second}");
+        }
+        assert_eq!(array("1016", "6"), [""; 0], "COM002");
+        assert_eq!(array("2000", "6").len(), 1);
     }
 
     #[test]

@@ -1,7 +1,9 @@
 use super::structure::needs_attributes;
 use crate::edits::add_lines;
+use crate::missing::place_of;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
+use edskit_model::KeyName;
 use edskit_types::SubIndex;
 
 rule! {
@@ -9,7 +11,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports a VAR, DEFTYPE or sub-object without `DataType`, and an object with `CompactSubObj` without one. A
-    /// DOMAIN needs none.
+    /// DOMAIN needs none. Where `AccessType` is missing as well, this rule says so for both.
     ///
     /// ## Why is this bad
     /// Without the data type nobody knows how many bytes the value has, nor what its default value and limits mean.
@@ -51,7 +53,9 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         return;
     }
     let section = variable.description.section();
-    let finding = report.add(section.span(), format!("{} has no DataType", variable.place()));
+    let what = if variable.access_type.is_some() { "no DataType" } else { "neither DataType nor AccessType" };
+    let finding =
+        report.add(place_of(section, KeyName::DataType), format!("{} has {what}", variable.place()));
     if variable.sub_index == Some(SubIndex(0)) {
         finding
             .help("write `DataType=0x0005`: sub-index 00h is UNSIGNED8")
@@ -69,15 +73,15 @@ mod tests {
     #[test]
     fn only_what_holds_a_value_needs_a_type() {
         let text = "[2000]\nObjectType=9\n[2000sub0]\nParameterName=n\n[2000sub1]\nObjectType=2\n\
-                    [2001]\nObjectType=2\n[2002]\nObjectType=0\n[2003]\nDataType=\n[2004]\nObjectType=8\nCompactSubObj=3\n\
+                    [2001]\nObjectType=2\n[2002]\nObjectType=0\n[2003]\nDataType=\nAccessType=ro\n[2004]\nObjectType=8\nCompactSubObj=3\nAccessType=ro\n\
                     [2005]\nObjectType=6\n[2006]\nObjectType=5\n[2007]\nObjectType=7\n[2007sub1]\nDataType=5\n";
         assert_eq!(
             findings(&DATA_TYPE_MISSING, text),
             [
-                "3:1 error: 2000h sub-index 00h has no DataType",
-                "11:1 error: 2003h has no DataType",
-                "13:1 error: 2004h has no DataType",
-                "18:1 error: 2006h has no DataType"
+                "3:1 error: 2000h sub-index 00h has neither DataType nor AccessType",
+                "12:1 error: 2003h has no DataType",
+                "14:1 error: 2004h has no DataType",
+                "20:1 error: 2006h has neither DataType nor AccessType"
             ]
         );
         assert_eq!(

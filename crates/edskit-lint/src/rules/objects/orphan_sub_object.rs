@@ -1,6 +1,7 @@
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
-use edskit_model::SubObject;
+use edskit_model::{SectionKind, SubObject};
 
 rule! {
     /// A sub-object belongs to no object
@@ -62,6 +63,10 @@ fn check(context: &Context<'_>, report: &mut Report) {
         sheet.sub_objects().filter(|sub| sheet.object(sub.index()).is_none()).collect();
     for group in orphans.chunk_by(|a, b| a.index() == b.index()) {
         let Some(first) = group.iter().min_by_key(|sub| sub.section().id()) else { continue };
+        // The object's header stands behind other text: that is the matter of SYN008.
+        if lost_header::hides(context, SectionKind::Object(first.index())) {
+            continue;
+        }
         let verb = match group.len() - 1 {
             0 => "belongs".to_owned(),
             more => format!("and {more} more belong"),
@@ -82,6 +87,12 @@ fn check(context: &Context<'_>, report: &mut Report) {
 mod tests {
     use super::*;
     use crate::testing::findings;
+
+    #[test]
+    fn an_object_whose_header_lost_its_line_is_described() {
+        let text = "[1017]\nPDOMapping=0[2000]\nParameterName=a\nObjectType=9\n[2000sub0]\nDataType=5\n";
+        assert_eq!(findings(&ORPHAN_SUB_OBJECT, text), [""; 0]);
+    }
 
     #[test]
     fn one_finding_for_each_object() {

@@ -36,7 +36,7 @@ pub(super) fn sub0(object: Object<'_>) -> Option<SubObject<'_>> {
 /// stands for the compact sub-objects.
 pub(super) fn needs_attributes(context: &Context<'_>, variable: &Variable<'_>) -> bool {
     match (variable.code, variable.sub_index) {
-        (Some(ObjectCode::Var | ObjectCode::DefType), Some(_)) => true,
+        (Some(ObjectCode::Var | ObjectCode::DefType), Some(_)) => !is_under_value(context, variable),
         // A VAR with sub-objects is the matter of OBJ011.
         (Some(ObjectCode::Var | ObjectCode::DefType), None) => {
             context.sheet.object(variable.index).is_none_or(|object| counted_subs(object).len() == 0)
@@ -48,6 +48,13 @@ pub(super) fn needs_attributes(context: &Context<'_>, variable: &Variable<'_>) -
             .is_some_and(|count| count > 0),
         _ => false,
     }
+}
+
+/// Whether this is a sub-object of an object that has none: the matter of OBJ011 as a whole.
+pub(super) fn is_under_value(context: &Context<'_>, variable: &Variable<'_>) -> bool {
+    let has_none =
+        |object: Object<'_>| object.description().object_code().is_some_and(|code| !code.has_sub_objects());
+    variable.sub_index.is_some() && context.sheet.object(variable.index).is_some_and(has_none)
 }
 
 /// What CiA 301 fixes for objects that are often described with the wrong one of ARRAY and RECORD.

@@ -1,13 +1,14 @@
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
-use edskit_types::{DataType, SubIndex};
+use edskit_model::{Field, Value};
+use edskit_types::{DataType, Index, SubIndex};
 
 rule! {
     /// Sub-index 00h is not UNSIGNED8
     ///
     /// ## What it does
     /// Reports a sub-index 00h, which holds the highest sub-index of an ARRAY or RECORD, with another data type than
-    /// UNSIGNED8 (0005h).
+    /// UNSIGNED8 (0005h). That of 1004h, which old editions define with 32 bits, is left to COM019.
     ///
     /// ## Why is this bad
     /// The structure of an ARRAY and a RECORD fixes the type. A master that reads sub-index 00h expects one byte.
@@ -41,7 +42,8 @@ rule! {
 }
 
 fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    if variable.sub_index != Some(SubIndex(0)) {
+    // Sub-index 00h of 1004h, which old editions have, holds two numbers of PDOs in 32 bits; see COM019.
+    if variable.sub_index != Some(SubIndex(0)) || variable.index == Index(0x1004) {
         return;
     }
     let Some(field) = variable.data_type else { return };
@@ -50,10 +52,15 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     }
     let name =
         variable.standard_type.map_or_else(|| field.text().into_owned(), |known| known.name().to_owned());
-    report
-        .add(field.span(), format!("sub-index 00h of {} is {name} instead of UNSIGNED8", variable.index))
-        .help("write `DataType=0x0005`")
-        .unsafe_fix("Make it UNSIGNED8", vec![Edit::replace(field.span(), "0x0005")]);
+    let finding = report
+        .add(field.span(), format!("sub-index 00h of {} is {name} instead of UNSIGNED8", variable.index));
+    finding.help("write `DataType=0x0005`");
+    let values = [variable.default_value, variable.parameter_value].into_iter().flatten();
+    // A value that is no count shows that more is wrong than the type.
+    let is_count = |value: Value<'_>| matches!(value, Value::Integer(number) if number.to::<u8>().is_some());
+    if values.filter_map(Field::known).all(is_count) {
+        finding.unsafe_fix("Make it UNSIGNED8", vec![Edit::replace(field.span(), "0x0005")]);
+    }
 }
 
 #[cfg(test)]
@@ -71,6 +78,13 @@ mod tests {
                 "4:10 error: sub-index 00h of 2001h is 0x40 instead of UNSIGNED8"
             ]
         );
+        assert!(findings(&SUB0_NOT_U8, "[1004sub0]\nDataType=7\n").is_empty());
         assert_eq!(fixed(&SUB0_NOT_U8, "[2000sub0]\nDataType=2\n"), "[2000sub0]\nDataType=0x0005\n");
+    }
+
+    #[test]
+    fn a_value_that_is_no_count_is_not_made_one() {
+        let text = "[2000sub0]\nDataType=7\nDefaultValue=0x96A\n";
+        assert_eq!(fixed(&SUB0_NOT_U8, text), text);
     }
 }

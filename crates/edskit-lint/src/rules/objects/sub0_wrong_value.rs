@@ -2,7 +2,7 @@ use super::structure::{counted_subs, elements, goes_beyond_ff, sub0};
 use crate::edits::number_like;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
-use edskit_model::{Description, Object, Value};
+use edskit_model::{Description, Field, Object, Value};
 use edskit_types::{Index, ObjectCode};
 
 rule! {
@@ -11,7 +11,8 @@ rule! {
     /// ## What it does
     /// Compares the default value of a read-only sub-index 00h with the highest described sub-index. A value that is
     /// too small is a warning. A value that is too large is a warning for a RECORD and an information for an ARRAY; an
-    /// ARRAY of the communication profile with an element for each node may leave elements out. Gaps do not matter.
+    /// ARRAY of the communication profile with an element for each node may leave elements out. Gaps do not matter, and
+    /// a DCF may say the right number as `ParameterValue`.
     ///
     /// Lists whose length changes while the device runs are left alone: 1003h, PDO mappings, a writable sub-index 00h,
     /// and one whose `HighLimit` covers all that is described.
@@ -80,7 +81,11 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let highest = last.sub_index().0;
     let Some(field) = sub0.default_value() else { return };
     let Ok(Value::Integer(number)) = field.value else { return };
-    if number.value() == i128::from(highest) {
+    // In a DCF the device has the configured value, whatever others of its kind have.
+    let configured = sub0.parameter_value().and_then(Field::known);
+    let is_highest =
+        |value: Value<'_>| matches!(value, Value::Integer(number) if number.value() == i128::from(highest));
+    if is_highest(Value::Integer(number)) || configured.is_some_and(is_highest) {
         return;
     }
     let Some(code @ (ObjectCode::Array | ObjectCode::Record)) = object.object_code() else { return };
@@ -146,6 +151,17 @@ mod tests {
 
     fn finding(index: &str, code: u8, sub0: &str, subs: &[&str]) -> String {
         findings(&SUB0_WRONG_VALUE, &object(index, code, sub0, subs)).join("|")
+    }
+
+    #[test]
+    fn the_configured_value_counts_too() {
+        let found = |value: &str| {
+            let text = format!(
+                "[2000]\nObjectType=9\n[2000sub0]\nDataType=5\nAccessType=ro\nDefaultValue=2\nParameterValue={value}\n[2000sub1]\n"
+            );
+            findings(&SUB0_WRONG_VALUE, &text).len()
+        };
+        assert_eq!([found("1"), found("2"), found("")], [0, 1, 1]);
     }
 
     #[test]

@@ -4,7 +4,8 @@ use crate::edits::number_like;
 use crate::rule::rule;
 use crate::wording::count;
 use crate::{Context, Edit, Report};
-use edskit_model::Object;
+use edskit_model::{Object, SectionKind};
+use edskit_types::SubIndex;
 
 rule! {
     /// SubNumber is not the number of described sub-objects
@@ -62,7 +63,7 @@ rule! {
     }
 }
 
-fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
+fn check(context: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let Some(field) = object.sub_number() else { return };
     let Some(claimed) = field.known().map(usize::from) else { return };
     let described = counted_subs(object).len();
@@ -76,7 +77,7 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
         // OBJ012: SubNumber is right, sub-index 00h is missing.
         return;
     }
-    if goes_beyond_ff(object) {
+    if goes_beyond_ff(object) || hides_sub_object(context, object) {
         return;
     }
     let message = format!(
@@ -114,10 +115,23 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
         .unsafe_fix("Write the number of described sub-objects", vec![Edit::replace(field.span(), number)]);
 }
 
+/// Whether the header of a sub-object stands behind other text, which is the matter of SYN008.
+fn hides_sub_object(context: &Context<'_>, object: Object<'_>) -> bool {
+    let hidden = context.hidden_sections();
+    let first = hidden.partition_point(|kind| *kind < SectionKind::SubObject(object.index(), SubIndex(0)));
+    matches!(hidden.get(first), Some(SectionKind::SubObject(index, _)) if *index == object.index())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::testing::{findings, fixed};
+
+    #[test]
+    fn a_sub_object_whose_header_lost_its_line_is_described() {
+        let text = "[2000]\nObjectType=9\nSubNumber=2\n[2000sub0]\nDataType=5[2000sub1]\nDataType=6\n";
+        assert_eq!(findings(&SUB_NUMBER_MISMATCH, text), [""; 0]);
+    }
 
     #[test]
     fn gaps_and_ffh_are_not_counted() {

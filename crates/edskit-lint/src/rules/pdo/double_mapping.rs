@@ -80,8 +80,14 @@ fn check(context: &Context<'_>, report: &mut Report) {
 }
 
 /// What an entry maps: index and sub-index. The length is the matter of PDO005.
-fn object(mapped: &Mapped<'_>) -> Option<u32> {
-    matches!(mapped.target, Target::Entry(_)).then_some(mapped.entry.0 >> 8)
+fn object(context: &Context<'_>, mapped: &Mapped<'_>) -> Option<u32> {
+    let is_object = match mapped.target {
+        Target::Entry(_) => true,
+        // An object that no section describes is the matter of PDO004, but for one that a module brings.
+        Target::NoObject => context.is_modular(),
+        _ => false,
+    };
+    is_object.then_some(mapped.entry.0 >> 8)
 }
 
 fn place(context: &Context<'_>, mapped: &Mapped<'_>) -> String {
@@ -94,8 +100,8 @@ fn place(context: &Context<'_>, mapped: &Mapped<'_>) -> String {
 /// Looks for an object that stands twice in one mapping.
 fn check_pdo(context: &Context<'_>, pdo: &DescribedPdo<'_>, report: &mut Report) {
     for (position, mapped) in pdo.mapped().iter().enumerate() {
-        let Some(key) = object(mapped) else { continue };
-        let first = pdo.mapped()[..position].iter().find(|first| object(first) == Some(key));
+        let Some(key) = object(context, mapped) else { continue };
+        let first = pdo.mapped()[..position].iter().find(|first| object(context, first) == Some(key));
         let Some(first) = first else { continue };
         report
             .add(mapped.value.span(), format!("{pdo} maps {} twice", place(context, mapped)))
@@ -111,7 +117,7 @@ fn check_receivers(context: &Context<'_>, report: &mut Report) {
     for pdo in context.pdos().iter().filter(|pdo| pdo.direction == PdoDirection::Receive) {
         if pdo.is_valid() == Some(true) {
             let entries = pdo.mapped().iter();
-            written.extend(entries.filter_map(|mapped| Some((object(mapped)?, pdo, mapped))));
+            written.extend(entries.filter_map(|mapped| Some((object(context, mapped)?, pdo, mapped))));
         }
     }
     // A stable sort keeps the PDOs of one object in order.
@@ -167,6 +173,9 @@ mod tests {
     fn twice_in_one_pdo() {
         let text = pdo(0x1800, "$NODEID+0x180", &["0x60400010", "0x60400008"]) + OBJECT;
         assert_eq!(findings(&DOUBLE_MAPPING, &text), ["16:14 warning: TPDO1 maps 6040h twice"]);
+        let unknown = pdo(0x1800, "$NODEID+0x180", &["0x60000108", "0x60000108"]);
+        assert!(findings(&DOUBLE_MAPPING, &unknown).is_empty(), "PDO004");
+        assert_eq!(findings(&DOUBLE_MAPPING, &(unknown + "[M1ModuleInfo]\n")).len(), 1);
         let dummies = pdo(0x1400, "$NODEID+0x200", &["0x00050008", "0x00050008", "0", "0"]);
         assert!(findings(&DOUBLE_MAPPING, &dummies).is_empty());
     }

@@ -7,7 +7,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports a communication parameter of a PDO that does not describe sub-index 01h (COB-ID) or 02h (transmission
-    /// type).
+    /// type). Where the mapping parameter is missing as well, PDO001 says so.
     ///
     /// ## Why is this bad
     /// Both are mandatory. Without a COB-ID nobody knows the frames of the PDO, without a transmission type nobody
@@ -27,6 +27,13 @@ rule! {
     /// [1800sub1]
     /// ParameterName=COB-ID
     /// DataType=0x0007
+    ///
+    /// [1A00]
+    /// ParameterName=TPDO 1 mapping parameter
+    /// ObjectType=0x9
+    /// CompactSubObj=8
+    /// DataType=0x0007
+    /// AccessType=rw
     /// ```
     ///
     /// ## Use instead
@@ -47,6 +54,13 @@ rule! {
     /// [1800sub2]
     /// ParameterName=Transmission type
     /// DataType=0x0005
+    ///
+    /// [1A00]
+    /// ParameterName=TPDO 1 mapping parameter
+    /// ObjectType=0x9
+    /// CompactSubObj=8
+    /// DataType=0x0007
+    /// AccessType=rw
     /// ```
     ///
     /// ## References
@@ -64,7 +78,8 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     for pdo in context.pdos() {
-        let Some(object) = pdo.communication else { continue };
+        // A PDO of which a whole half is missing is the matter of PDO001.
+        let (Some(object), Some(_)) = (pdo.communication, pdo.mapping) else { continue };
         if pdo.cob_id.is_some() && pdo.transmission_type.is_some() {
             continue;
         }
@@ -92,7 +107,7 @@ mod tests {
 
     #[test]
     fn both_are_mandatory() {
-        let text = "[1400]\nObjectType=9\n[1400sub0]\n[1400sub1]\n[1400sub2]\n[1401]\nObjectType=9\n[1401sub0]\n[1401sub2]\n[1800]\nObjectType=9\n[1800sub0]\n[1801]\nObjectType=9\n";
+        let text = "[1400]\nObjectType=9\n[1400sub0]\n[1400sub1]\n[1400sub2]\n[1401]\nObjectType=9\n[1401sub0]\n[1401sub2]\n[1800]\nObjectType=9\n[1800sub0]\n[1801]\nObjectType=9\n[1600]\n[1601]\n[1A00]\n[1A01]\n";
         assert_eq!(
             findings(&PDO_PARAMETER_MISSING, text),
             [
@@ -101,8 +116,13 @@ mod tests {
             ]
         );
         assert!(
-            findings(&PDO_PARAMETER_MISSING, "[1400]\nObjectType=9\nDataType=7\nCompactSubObj=2\n")
+            findings(&PDO_PARAMETER_MISSING, "[1400]\nObjectType=9\nDataType=7\nCompactSubObj=2\n[1600]\n")
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn half_a_pdo_is_one_defect() {
+        assert!(findings(&PDO_PARAMETER_MISSING, "[1400]\nObjectType=9\n[1400sub1]\n").is_empty());
     }
 }

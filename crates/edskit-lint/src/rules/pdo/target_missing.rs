@@ -156,6 +156,7 @@ mod tests {
     #[test]
     fn modules_and_channels_bring_objects() {
         assert!(found("0x20000010", "[SupportedModules]\nNrOfEntries=1\n").is_empty());
+        assert!(found("0x20000010", "[M1ModuleInfo]\n").is_empty(), "MOD001");
         let channels = "[DynamicChannels]\nNrOfSeg=1\nRange1=0xA080-0xA0BF\n";
         assert!(found("0xA0800108", channels).is_empty());
         assert_eq!(found("0xA0C00108", channels).len(), 1);

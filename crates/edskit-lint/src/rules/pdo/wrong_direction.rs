@@ -1,15 +1,16 @@
 use crate::pdos::{self, Target};
 use crate::rule::rule;
-use crate::{Context, Report};
+use crate::{Context, Report, Severity};
 use edskit_model::KeyName;
-use edskit_types::PdoDirection;
+use edskit_types::{AccessType, PdoDirection};
 
 rule! {
     /// A mapped object cannot be carried in this direction
     ///
     /// ## What it does
     /// Reports an RPDO that maps an object with the access `ro`, `const` or `rwr`, and a TPDO that maps one with `wo`
-    /// or `rww`.
+    /// or `rww`. With `rwr` and `rww` it is a warning: they say what the value is for, and devices differ in how strict
+    /// they are.
     ///
     /// ## Why is this bad
     /// An RPDO writes what it maps, a TPDO reads it. The access forbids this, so the mapping is refused or does
@@ -90,6 +91,9 @@ fn check(context: &Context<'_>, report: &mut Report) {
             let message = format!("{pdo} {does} what it maps, but {place} is `{access}`");
             let finding = report.add(mapped.value.span(), message);
             finding.here(format!("entry {} of the mapping", mapped.sub_index.0));
+            if matches!(access, AccessType::Rwr | AccessType::Rww) {
+                finding.severity(Severity::Warning);
+            }
             let section = pdos::attributes(context.sheet, entry);
             if let Some(field) = section.and_then(|section| section.filled(KeyName::AccessType)) {
                 finding.label(field.span(), "the access");
@@ -121,7 +125,7 @@ mod tests {
         for access in ["ro", "const", "rw", "rwr"] {
             assert!(found("1A00", access).is_empty(), "{access}");
         }
-        assert_eq!(found("1600", "rwr"), ["8:14 error: RPDO1 writes what it maps, but 2000h is `rwr`"]);
+        assert_eq!(found("1600", "rwr"), ["8:14 warning: RPDO1 writes what it maps, but 2000h is `rwr`"]);
         assert_eq!(found("1A00", "wo"), ["8:14 error: TPDO1 reads what it maps, but 2000h is `wo`"]);
         assert_eq!(found("1600", "const").len() + found("1600", "RO").len() + found("1A00", "rww").len(), 3);
     }

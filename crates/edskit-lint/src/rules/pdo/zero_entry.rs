@@ -7,7 +7,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports an entry of 0 among those that sub-index 00h of a mapping parameter counts. It is a warning where the
-    /// PDO is not in use.
+    /// PDO is not in use, and where all of them are 0: then sub-index 00h may stand for the room for entries.
     ///
     /// ## Why is this bad
     /// The entry names no object. Devices refuse such a mapping, and tools stop decoding the PDO there.
@@ -80,7 +80,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
         let used = pdo.mapped().iter().rposition(|entry| !matches!(entry.target, Target::Zero));
         let used = used.map_or(0, |position| pdo.mapped()[position].sub_index.0);
         let finding = report.add(first.value.span(), format!("{which}, but the mapping has {number}"));
-        if pdo.is_valid() != Some(true) {
+        if used == 0 || pdo.is_valid() != Some(true) {
             finding.severity(Severity::Warning);
         }
         finding.label(count.span(), "the number of mapped entries");
@@ -115,7 +115,11 @@ mod tests {
         );
         assert_eq!(
             found("0x205", "3", &["0", "0", "0"]),
-            ["13:14 error: entries 1 to 3 of RPDO1 are 0, but the mapping has 3"]
+            ["13:14 warning: entries 1 to 3 of RPDO1 are 0, but the mapping has 3"]
+        );
+        assert_eq!(
+            found("0x205", "2", &["0x20000010", "0"]),
+            ["16:14 error: entry 2 of RPDO1 is 0, but the mapping has 2"]
         );
         assert!(
             found("0x205", "1", &["0x20000010", "0"]).is_empty() && found("0x205", "", &["0"]).is_empty()

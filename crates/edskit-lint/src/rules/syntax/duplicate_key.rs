@@ -1,3 +1,4 @@
+use super::lost_header;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
 use edskit_model::{Entry, Key, KeyName, Section};
@@ -71,6 +72,10 @@ fn may_repeat(section: Section<'_>) -> bool {
 fn check_section(context: &Context<'_>, section: Section<'_>, report: &mut Report) {
     let mut known = HashMap::new();
     for entry in section.entries() {
+        // What follows a header that lost its line belongs to that section; see SYN008.
+        if entry.raw().ends_with(b"]") && lost_header::on_line(context, entry.line_number()).is_some() {
+            return;
+        }
         let spelling = entry.key_span().slice(context.source()).to_ascii_lowercase();
         match known.entry(spelling) {
             hash_map::Entry::Vacant(free) => {
@@ -121,6 +126,13 @@ mod tests {
             "[1018]\nSubNumber=2\nsubnumber=3\n[DummyUsage]\nDummy0002=1\nDummy0001=1\n"
         );
         assert_eq!(findings(&DUPLICATE_KEY, "[MandatoryObjects]\n1=0x1000\n01=0x1001\n"), [""; 0]);
+    }
+
+    #[test]
+    fn what_follows_a_lost_header_is_no_repetition() {
+        let text =
+            "[1000]\nParameterName=a\nPDOMapping=0[1001]\nParameterName=b\n[1002]\nDataType=5\nDataType=6\n";
+        assert_eq!(findings(&DUPLICATE_KEY, text).len(), 1);
     }
 
     #[test]

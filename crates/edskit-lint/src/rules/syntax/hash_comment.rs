@@ -1,12 +1,13 @@
 use crate::rule::rule;
-use crate::{Context, Edit, Report};
+use crate::{Context, Edit, Report, Severity};
 use edskit_model::{LineKind, Span};
 
 rule! {
     /// A line begins with `#`
     ///
     /// ## What it does
-    /// Reports lines that begin with `#`, which many tools write and skip as comments.
+    /// Reports lines that begin with `#`, which many tools write and skip as comments. With a `=` in it the line is a
+    /// warning: readers that do not know such comments take it for an entry of their own kind.
     ///
     /// ## Why is this bad
     /// CiA 306 knows only `;` for comments. To other readers `#Key=value` is an entry with an odd key, and a line
@@ -49,10 +50,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
         }
         // Blanks before the mark go too, since a comment begins in column 1.
         let edit = Edit::replace(Span::new(line.span().start, start + 1), ";");
-        report
-            .add(Span::new(start, start + 1), "`#` does not begin a comment")
-            .help("write `;` instead")
-            .safe_fix("Begin the comment with `;`", vec![edit]);
+        let finding = report.add(Span::new(start, start + 1), "`#` does not begin a comment");
+        finding.help("write `;` instead").safe_fix("Begin the comment with `;`", vec![edit]);
+        if line.trimmed(source).slice(source).contains(&b'=') {
+            finding.severity(Severity::Warning);
+        }
     }
 }
 
@@ -66,7 +68,7 @@ mod tests {
         let text = "[1000]\n# a\n  #b=1\nParameterName=#1\n; # c\n";
         assert_eq!(
             findings(&HASH_COMMENT, text),
-            ["2:1 error: `#` does not begin a comment", "3:3 error: `#` does not begin a comment"]
+            ["2:1 error: `#` does not begin a comment", "3:3 warning: `#` does not begin a comment"]
         );
         assert_eq!(fixed(&HASH_COMMENT, text), "[1000]\n; a\n;b=1\nParameterName=#1\n; # c\n");
     }

@@ -162,6 +162,10 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
             .unsafe_fix(format!("Write `{formula}`"), vec![Edit::replace(value, formula.to_string())]);
         return;
     }
+    if matches!(raw, [b'<', .., b'>'] | [b'$', b'{', .., b'}']) {
+        finding.help("fill in the number: this is the blank of a form");
+        return;
+    }
     let Some(slip) = slips::of_number(raw) else {
         finding.help("write a decimal number, or a hexadecimal one such as `0x1A`");
         return;
@@ -180,7 +184,8 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::{findings, fixed};
+    use crate::testing::{findings, fixed, lint};
+    use edskit_model::Datasheet;
 
     #[test]
     fn keys_that_are_numbers() {
@@ -225,6 +230,13 @@ mod tests {
         ] {
             assert_eq!(value(data_type, fine), [""; 0], "{data_type} {fine}");
         }
+    }
+
+    #[test]
+    fn blanks_of_a_form_are_named() {
+        let text = "[2000]\nDataType=7\nParameterValue=<!speed>\n";
+        let found = lint(&INVALID_NUMBER, "a.dcf", &Datasheet::parse(text.as_bytes()));
+        assert_eq!(found[0].help.as_deref(), Some("fill in the number: this is the blank of a form"));
     }
 
     #[test]

@@ -1,7 +1,8 @@
 use super::{control_character, lost_header};
 use crate::rule::rule;
-use crate::{Context, Edit, Report};
+use crate::{Context, Edit, Finding, Report};
 use edskit_model::{Key, KeyGroup, KeyName, Line, LineKind, Section, Span, is_merge_marker};
+use std::collections::HashSet;
 
 rule! {
     /// A line is neither section, entry nor comment
@@ -73,6 +74,26 @@ fn lost(context: &Context<'_>, header: Span, report: &mut Report) {
         .add(header, format!("the header `{name}` stands behind other text; a line break was lost"))
         .help(format!("write `{name}` in a line of its own"))
         .unsafe_fix("Begin a new line", vec![Edit::insert(header.start, line_break)]);
+}
+
+/// Where this rule found a header behind a value, the value is not what anybody wrote: other findings on the line go.
+pub(crate) fn take_over_lost_headers(context: &Context<'_>, findings: &mut Vec<Finding>) {
+    let line = |finding: &Finding| context.document().line_at(finding.span().start);
+    let is_lost = |finding: &&Finding| {
+        finding.rule == &LINE_WITHOUT_EQUALS && finding.span().slice(context.source()).starts_with(b"[")
+    };
+    let lines: HashSet<usize> = findings.iter().filter(is_lost).map(line).collect();
+    if lines.is_empty() {
+        return;
+    }
+    // What is missing in the file as a whole is told at the start of its first line, which may be such a line.
+    let is_in_value = |finding: &Finding| {
+        let start = finding.span().start;
+        start > context.document().lines()[context.document().line_at(start)].trimmed(context.source()).start
+    };
+    findings.retain(|finding| {
+        finding.rule == &LINE_WITHOUT_EQUALS || !lines.contains(&line(finding)) || !is_in_value(finding)
+    });
 }
 
 fn other(

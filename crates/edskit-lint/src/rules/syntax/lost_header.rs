@@ -30,11 +30,18 @@ pub(super) fn is_anywhere(context: &Context<'_>) -> bool {
     (0..context.document().lines().len()).any(|number| on_line(context, number).is_some())
 }
 
-/// Whether the header of a section stands behind other text, which SYN008 reports: the section is not missing.
-pub(crate) fn hides(context: &Context<'_>, kind: SectionKind) -> bool {
+/// The sections whose headers stand behind other text, sorted.
+pub(crate) fn hidden(context: &Context<'_>) -> Vec<SectionKind> {
     let headers = (0..context.document().lines().len()).filter_map(|number| on_line(context, number));
     let name = |header: Span| header.sub(1, header.len() - 2).slice(context.source());
-    headers.into_iter().any(|header| SectionKind::of(name(header)) == kind)
+    let mut hidden: Vec<SectionKind> = headers.map(|header| SectionKind::of(name(header))).collect();
+    hidden.sort_unstable();
+    hidden
+}
+
+/// Whether the header of a section stands behind other text, which SYN008 reports: the section is not missing.
+pub(crate) fn hides(context: &Context<'_>, kind: SectionKind) -> bool {
+    context.hidden_sections().binary_search(&kind).is_ok()
 }
 
 /// Whether a section is nowhere else, and the next entry is one that belongs into it. A text may well name an object:

@@ -13,7 +13,7 @@ mod inline_comment;
 mod invalid_number;
 mod leading_zero_name;
 mod line_too_long;
-mod line_without_equals;
+pub(crate) mod line_without_equals;
 pub(crate) mod lost_header;
 mod malformed_section;
 mod mixed_line_endings;

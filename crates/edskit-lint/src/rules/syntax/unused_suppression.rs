@@ -6,10 +6,12 @@ rule! {
     ///
     /// ## What it does
     /// Reports a comment `;edskit: allow(RULE)` or `;edskit: allow-file(RULE)` that silences no finding, or that names
-    /// no rule. Rules that are off in this run are not counted as unused.
+    /// no rule, and a comment that begins with `;edskit:` and is of neither form. Rules that are off in this run are not
+    /// counted as unused.
     ///
     /// ## Why is this bad
-    /// The comment outlived its reason. It will hide the next real finding at its place.
+    /// The comment outlived its reason. It will hide the next real finding at its place. One that cannot be read allows
+    /// nothing, although it looks as if it did.
     ///
     /// ## Example
     /// ```eds

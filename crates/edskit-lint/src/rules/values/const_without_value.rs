@@ -1,5 +1,6 @@
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
+use edskit_model::KeyName;
 use edskit_types::{AccessType, DataTypeKind, Index, SubIndex};
 
 rule! {
@@ -66,9 +67,11 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     if variable.standard_type.is_some_and(|data_type| is_data(data_type.kind())) {
         return;
     }
-    report
-        .add(access.span(), format!("{} is constant, but has no value", variable.place()))
-        .help("add a `DefaultValue`, or write `AccessType=ro` if the value differs from device to device");
+    let finding = report.add(access.span(), format!("{} is constant, but has no value", variable.place()));
+    if let Some(empty) = variable.description.section().entry(KeyName::DefaultValue) {
+        finding.label(empty.span(), "empty, which counts as missing");
+    }
+    finding.help("add a `DefaultValue`, or write `AccessType=ro` if the value differs from device to device");
 }
 
 #[cfg(test)]

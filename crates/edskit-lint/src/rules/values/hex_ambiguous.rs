@@ -1,7 +1,7 @@
 use super::reading::{Readings, Scalar, each_value, name};
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
-use edskit_model::{Field, Value};
+use edskit_model::{Field, KeyName, Value};
 use edskit_types::{DataType, NodeId};
 
 rule! {
@@ -84,7 +84,10 @@ fn report_values(fields: &[(Field<'_, Value<'_>>, Readings)], data_type: DataTyp
         Scalar::Integer(_) => true,
         Scalar::Real(value) => value.is_finite(),
     };
-    if fields.iter().all(|(_, readings)| is_number(readings)) {
+    // An upper limit below 0 is hardly ever meant where the lower one is not written in the same way.
+    let has = |key| fields.iter().any(|(field, _)| field.entry.key().name == key);
+    let is_likely = !data_type.is_integer() || !has(KeyName::HighLimit) || has(KeyName::LowLimit);
+    if is_likely && fields.iter().all(|(_, readings)| is_number(readings)) {
         let edit = |(field, readings): &(Field<'_, Value<'_>>, Readings)| {
             Edit::replace(field.span(), readings.as_bits.to_string())
         };
@@ -105,6 +108,13 @@ fn as_number(field: Field<'_, Value<'_>>) -> String {
 mod tests {
     use super::*;
     use crate::testing::{findings, fixed};
+
+    #[test]
+    fn an_upper_limit_alone_is_not_made_negative() {
+        let text = "[2000]\nDataType=3\nLowLimit=0\nHighLimit=0xFFFF\n";
+        assert_eq!(findings(&HEX_AMBIGUOUS, text).len(), 1);
+        assert_eq!(fixed(&HEX_AMBIGUOUS, text), text);
+    }
 
     #[test]
     fn signed_and_real() {

@@ -3,6 +3,7 @@ use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
 use edskit_model::{Formula, Value};
+use edskit_types::{DataType, DataTypeKind};
 
 rule! {
     /// A formula stands on a type that is no integer
@@ -45,7 +46,9 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    let Some(data_type) = variable.standard_type.filter(|data_type| !data_type.is_integer()) else { return };
+    // A record type on a single value is the matter of VAL001.
+    let is_other = |data_type: &DataType| !data_type.is_integer() && data_type.kind() != DataTypeKind::Record;
+    let Some(data_type) = variable.standard_type.filter(is_other) else { return };
     each_value(context, variable, |_, field| {
         let raw = field.entry.raw();
         if !is_formula(raw) {
@@ -97,6 +100,7 @@ mod tests {
             );
         }
         assert_eq!(default(7, "$NODEID"), "");
+        assert_eq!(default(0x21, "$NODEID"), "", "VAL001");
     }
 
     #[test]

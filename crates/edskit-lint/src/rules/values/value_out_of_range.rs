@@ -2,14 +2,15 @@ use super::reading::{Role, each_value, fits, name};
 use crate::rule::rule;
 use crate::{Context, Report, Severity, Variable};
 use edskit_model::{Field, Value};
-use edskit_types::{DataType, NodeId};
+use edskit_types::{DataType, NodeId, SubIndex};
 
 rule! {
     /// A value does not fit its data type
     ///
     /// ## What it does
     /// Reports a `DefaultValue` or `ParameterValue`, or an entry of `[xxxxValue]`, that its data type cannot hold, and
-    /// limits of this kind as warnings. Hexadecimal within the width of a signed type is accepted, because many tools
+    /// limits of this kind as warnings. A value that fits the data type that the object should have is left to COM002
+    /// and OBJ013. Hexadecimal within the width of a signed type is accepted, because many tools
     /// write negative values so.
     ///
     /// ## Why is this bad
@@ -69,6 +70,9 @@ fn report_value(
     data_type: DataType,
     report: &mut Report,
 ) {
+    if is_wrong_type(variable, value, data_type) {
+        return;
+    }
     let range = match data_type.range() {
         Some((low, high)) => format!("{low} to {high}"),
         None => format!("{:e} to {:e}", f32::MIN, f32::MAX),
@@ -84,6 +88,19 @@ fn report_value(
     if let Some(type_field) = variable.data_type {
         finding.label(type_field.span(), format!("the data type is {data_type}"));
     }
+}
+
+/// Whether the type is wrong rather than the value: the one that is prescribed (COM002) or that sub-index 00h has
+/// (OBJ013) is another one, and the value fits it.
+fn is_wrong_type(variable: &Variable<'_>, value: Value<'_>, data_type: DataType) -> bool {
+    let is_better = |other: DataType| other != data_type && fits(value, other, NodeId::MIN);
+    if variable.sub_index == Some(SubIndex(0)) {
+        return is_better(DataType::Unsigned8);
+    }
+    variable.prescribed().any(|prescribed| {
+        let mut types = prescribed.attributes.types.iter().filter_map(|&index| DataType::from_index(index));
+        !prescribed.attributes.types.contains(&data_type.index()) && types.any(is_better)
+    })
 }
 
 fn help(value: Value<'_>, data_type: DataType) -> String {
@@ -133,6 +150,14 @@ mod tests {
     use super::*;
     use crate::testing::{findings, findings_in, lint};
     use edskit_model::Datasheet;
+
+    #[test]
+    fn a_value_that_fits_the_right_type_shows_the_wrong_one() {
+        let found = |text: &str| findings(&VALUE_OUT_OF_RANGE, text).len();
+        assert_eq!(found("[1000]\nDataType=6\nDefaultValue=0x20192\n"), 0);
+        assert_eq!(found("[1000]\nDataType=7\nDefaultValue=0x120192000\n"), 1);
+        assert_eq!(found("[1003]\nObjectType=8\n[1003sub0]\nDataType=2\nDefaultValue=200\n"), 0);
+    }
 
     fn one(data_type: u16, value: &str) -> String {
         findings(&VALUE_OUT_OF_RANGE, &format!("[2000]\nDataType={data_type}\nDefaultValue={value}\n"))

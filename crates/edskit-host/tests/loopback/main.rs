@@ -1,0 +1,5 @@
+//! The hub and the clients over loopback.
+
+mod client;
+mod hub;
+mod tool;
