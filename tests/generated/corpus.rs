@@ -27,14 +27,11 @@ fn corpus_generates() {
         };
         let code = render(&layout, &Naming::of(&name));
         let problems = layout.mapping_problems();
-        if let Err(errors) = generate(&file.bytes, None, &Naming::of(&file.name), &linter) {
-            assert!(
-                errors.iter().any(|error| error.code != "GEN"),
-                "{}: the linter has no objection",
-                file.name
-            );
-        } else {
-            accepted += 1;
+        match generate(&file.bytes, None, &Naming::of(&file.name), &linter) {
+            Ok(_) => accepted += 1,
+            Err(errors) if errors.iter().all(|error| error.code != "GEN") => {}
+            // The linter only warns of what some device could do, and this dictionary cannot.
+            Err(errors) => assert_eq!(errors, problems, "{}", file.name),
         }
         if problems.is_empty() {
             good.push(code);

@@ -23,7 +23,7 @@ pub struct Mapping {
     pub number: u16,
     /// Where the number of entries stands.
     pub place: Place,
-    /// The mapped entries in their order.
+    /// The mapped entries in their order; those that are 0 are left out.
     pub entries: Vec<Mapped>,
 }
 
@@ -173,6 +173,8 @@ pub(super) fn read(items: &[Item], document: &Document) -> Vec<Mapping> {
             entry: MappingEntry(value(item)),
             place: place(item),
         });
+        // An entry of 0 names nothing: sub-index 00h may stand for the room for entries, which are mapped later.
+        let mapped = mapped.filter(|mapped| mapped.entry != MappingEntry(0));
         mappings.push(Mapping { direction, number, place: place(count), entries: mapped.collect() });
     }
     mappings

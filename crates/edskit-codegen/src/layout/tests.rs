@@ -300,6 +300,7 @@ fn mappings_are_judged() {
         lines.iter().map(|line| line.split_once("GEN ").unwrap().1.to_owned()).collect::<Vec<_>>()
     };
     assert!(problems(&["0x60410010"]).is_empty());
+    assert!(problems(&["0", "0"]).is_empty(), "room for entries");
     assert_eq!(
         problems(&["0x60410008"]),
         ["TPDO1 cannot carry 6041h sub-index 00h with 8 bits: it has another length"]
