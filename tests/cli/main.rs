@@ -8,5 +8,6 @@ mod help;
 mod lint;
 mod neighbours;
 mod profiles;
+mod run;
 mod settings;
 mod show;

@@ -1,0 +1,21 @@
+//! `edskit run`: what it says where nothing can be run. A node that runs is judged by the conformance check.
+
+use edskit_tests::{Folder, edskit};
+
+#[test]
+fn what_cannot_be_run() {
+    let folder = Folder::new("run");
+    let empty = folder.write("empty.eds", "[FileInfo]\n");
+    let good = folder.write("good.eds", "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n");
+    let cases: [(&str, &[&str]); 5] = [
+        ("missing", &["nowhere.eds"]),
+        ("nothing", &[&empty]),
+        ("bus", &[&good, "--bus", "socketcan"]),
+        ("node_id", &[&good, "--node-id", "128"]),
+        ("nobody", &[&good, "--bus", "socketcand:127.0.0.1:1/can0"]),
+    ];
+    for (name, arguments) in cases {
+        let output = edskit(&[&["run"], arguments].concat());
+        insta::assert_snapshot!(format!("run_{name}"), folder.clean(&output));
+    }
+}
