@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::time::Timer;
 use crate::{Frame, Instant, Microseconds, Pattern};
-use edskit_types::{AbortCode, CobId, Index, NmtState};
+use edskit_types::{AbortCode, CobId, Index};
 
 /// How many errors can be present at once; further ones are in the register, but cannot be told from each other.
 const MOST_ERRORS: usize = 8;
@@ -171,7 +171,8 @@ impl Context<'_> {
 
     /// Sends what waits, as far as the state, the inhibit time and the queue allow.
     pub(crate) fn send_emergencies(&mut self) {
-        if !matches!(self.core.state, NmtState::PreOperational | NmtState::Operational) {
+        // Almost always nothing waits, and this is asked with every call of the node.
+        if self.core.emcy.waiting.iter().all(Option::is_none) || !self.is_communicating() {
             return;
         }
         let Some(cob_id) = self.objects.value(Index::EMCY_COB_ID, 0).map(CobId) else {

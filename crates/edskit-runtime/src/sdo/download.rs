@@ -118,9 +118,9 @@ impl<'a> Context<'a> {
                 .map_err(refusal);
         }
         // The buffer leaves the context while the value is written, since hooks get the rest of it.
-        let size = self.buffers.len().checked_div(self.servers.len()).unwrap_or(0);
+        let share = self.share(number);
         let buffers = core::mem::take(&mut self.buffers);
-        let value = buffers.get(number * size..number * size + length).unwrap_or_default();
+        let value = buffers.get(share.start..share.start + length).unwrap_or_default();
         let written = self.write(target.position, entry, value);
         self.buffers = buffers;
         written.map_err(refusal)

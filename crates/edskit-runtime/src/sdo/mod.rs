@@ -10,6 +10,7 @@ use crate::time::Timer;
 use crate::{Frame, Instant, MOST_DATA, Microseconds};
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
+use core::ops::Range;
 use download::Download;
 use edskit_types::{AbortCode, CanId, CobId, Index, NmtState, NodeId, SubIndex};
 use upload::Upload;
@@ -266,10 +267,16 @@ impl Context<'_> {
         }
     }
 
+    /// Where in the buffers the part of a server lies: all parts are equal.
+    fn share(&self, number: usize) -> Range<usize> {
+        let size = self.buffers.len().checked_div(self.servers.len()).unwrap_or(0);
+        number * size..(number + 1) * size
+    }
+
     /// The part of the buffers that belongs to a server.
     fn buffer(&mut self, number: usize) -> &mut [u8] {
-        let size = self.buffers.len().checked_div(self.servers.len()).unwrap_or(0);
-        self.buffers.get_mut(number * size..(number + 1) * size).unwrap_or_default()
+        let share = self.share(number);
+        self.buffers.get_mut(share).unwrap_or_default()
     }
 }
 

@@ -62,10 +62,10 @@ impl Context<'_> {
             let length = self.app.domain_length(&mut self.objects, entry).map_err(refusal)?;
             return Ok(Source { index, sub_index, position, origin: Origin::Domain, length });
         }
+        let share = self.share(number);
         let value = self.objects.bytes(position);
         let length = value.len();
-        let size = self.buffers.len().checked_div(self.servers.len()).unwrap_or(0);
-        let buffer = self.buffers.get_mut(number * size..(number + 1) * size).unwrap_or_default();
+        let buffer = self.buffers.get_mut(share).unwrap_or_default();
         let origin = if length <= buffer.len() { Origin::Buffer } else { Origin::Dictionary };
         copy(buffer, value);
         Ok(Source { index, sub_index, position, origin, length: Some(length as u32) })
