@@ -5,6 +5,8 @@ mod dialect;
 mod listener;
 mod participant;
 mod session;
+#[cfg(test)]
+pub(crate) mod testing;
 
 pub(crate) use dialect::{Answer, Dialect};
 pub use participant::HubParticipant;

@@ -1,5 +1,6 @@
 use super::*;
 use crate::Received;
+use crate::hub::testing::{self, extended, standard};
 use crate::hub::{Answer, Dialect};
 use edskit_runtime::{Frame, Instant};
 use edskit_types::CanId;
@@ -8,21 +9,9 @@ use proptest::prelude::*;
 const OK: Answer = Answer::Reply(b"\r");
 const ERROR: Answer = Answer::Reply(b"\x07");
 
-fn standard(id: u16, data: &[u8]) -> Frame {
-    Frame::new(CanId::standard(id).unwrap(), data)
-}
-
-fn extended(id: u32, data: &[u8]) -> Frame {
-    Frame::new(CanId::extended(id).unwrap(), data)
-}
-
 /// What the hub answers to pieces of a conversation.
 fn answers(pieces: &[&[u8]]) -> Vec<Answer> {
-    let (mut server, mut answers) = (Server::default(), Vec::new());
-    for piece in pieces {
-        server.feed(piece, &mut |answer| answers.push(answer));
-    }
-    answers
+    testing::answers::<Server>(pieces)
 }
 
 /// What follows from bytes on an open channel.

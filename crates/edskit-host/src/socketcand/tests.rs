@@ -1,29 +1,17 @@
 use super::*;
 use crate::Received;
 use crate::client::Incoming;
+use crate::hub::testing::{self, extended, standard};
 use crate::hub::{Answer, Dialect};
 use edskit_runtime::{Frame, Instant};
-use edskit_types::CanId;
 use proptest::prelude::*;
 use std::time::Duration;
 
 const HANDSHAKE: &[u8] = b"< open can0 >< rawmode >";
 
-fn standard(id: u16, data: &[u8]) -> Frame {
-    Frame::new(CanId::standard(id).unwrap(), data)
-}
-
-fn extended(id: u32, data: &[u8]) -> Frame {
-    Frame::new(CanId::extended(id).unwrap(), data)
-}
-
 /// What the hub answers to pieces of a conversation.
 fn answers(pieces: &[&[u8]]) -> Vec<Answer> {
-    let (mut server, mut answers) = (Server::default(), Vec::new());
-    for piece in pieces {
-        server.feed(piece, &mut |answer| answers.push(answer));
-    }
-    answers
+    testing::answers::<Server>(pieces)
 }
 
 /// What a client sends in raw mode with these bytes.

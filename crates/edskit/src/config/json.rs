@@ -3,7 +3,7 @@
 use super::Report;
 use super::problem::Problem;
 use super::view::View;
-use crate::lint::json::{JsonLocation, location};
+use crate::lint::json::{JsonLocation, JsonRelated, location};
 use crate::positions::Region;
 use edskit_lint::{Label, Severity};
 use edskit_model::Document;
@@ -33,12 +33,6 @@ struct JsonFinding<'a> {
     location: JsonLocation,
     label: &'a str,
     related: Vec<JsonRelated<'a>>,
-}
-
-#[derive(Serialize)]
-struct JsonRelated<'a> {
-    location: JsonLocation,
-    label: &'a str,
 }
 
 pub(super) fn write(report: &Report, name: &str, document: &Document, out: &mut dyn Write) -> io::Result<()> {

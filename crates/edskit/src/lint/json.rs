@@ -45,10 +45,11 @@ struct JsonFinding<'a> {
     fix: Option<JsonFix<'a>>,
 }
 
+/// A further place of a finding.
 #[derive(Serialize)]
-struct JsonRelated<'a> {
-    location: JsonLocation,
-    label: &'a str,
+pub(crate) struct JsonRelated<'a> {
+    pub(crate) location: JsonLocation,
+    pub(crate) label: &'a str,
 }
 
 /// Lines and columns count from 1, columns in characters; offsets count bytes from 0.
