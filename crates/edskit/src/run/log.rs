@@ -1,9 +1,8 @@
 //! What a running node tells: lines for people, or JSON for machines.
 
-use super::device::DeviceEvent;
 use crate::Streams;
 use crate::cli::LogFormat;
-use edskit_host::Event;
+use edskit_host::{DeviceEvent, Event};
 use edskit_types::NodeId;
 use serde::Serialize;
 use std::io;

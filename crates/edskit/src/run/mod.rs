@@ -1,22 +1,16 @@
 //! `edskit run`: any EDS or DCF as a live node.
 
-mod device;
-mod dictionary;
 mod log;
-mod memory;
 
 use crate::cli::RunArguments;
 use crate::{Exit, Streams};
-use device::LoadedDevice;
-use dictionary::LoadedDictionary;
-use edskit_codegen::{Layout, SideFile, lay_out};
-use edskit_host::{Address, Bus, BusError, Hub, HubOptions, SendError, open};
+use edskit_codegen::{Layout, LoadedDictionary, SideFile, lay_out};
+use edskit_host::{Address, Bus, BusError, Hub, HubOptions, MemoryDevice, MemoryStorage, Station, open};
 use edskit_lint::FileKind;
 use edskit_model::{Datasheet, Document, Field};
-use edskit_runtime::{Frame, Node, Settings};
+use edskit_runtime::{Microseconds, Node, Settings};
 use edskit_types::NodeId;
 use log::Log;
-use memory::VolatileStorage;
 use std::fs;
 use std::io;
 use std::net::SocketAddr;
@@ -25,7 +19,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How often the loop looks whether it has been asked to end, in microseconds.
-const PATIENCE: u64 = 200_000;
+const PATIENCE: Microseconds = Microseconds(200_000);
 
 pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
     let (layout, commissioned) = match load(&arguments.file) {
@@ -40,7 +34,7 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
     let mut log = Log::new(arguments.log);
     // The hub lives as long as the node.
-    let (mut bus, _hub) = match connect(arguments, &mut log, streams) {
+    let (bus, _hub) = match connect(arguments, &mut log, streams) {
         Ok(connected) => connected,
         Err(reason) => {
             streams.complain(format_args!("{reason}"));
@@ -55,8 +49,30 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     }
     log.node(streams, node_id, layout.product.as_deref())?;
     let settings = Settings { node_id: Some(node_id), ..Settings::default() };
-    let node = Node::new(LoadedDictionary::new(layout), settings, VolatileStorage::default());
-    serve(node, &mut *bus, &mut log, &stop, streams)
+    let node = Node::new(LoadedDictionary::new(&layout), settings, MemoryStorage::default());
+    let mut station = Station::new(node, MemoryDevice::default(), bus);
+    while !stop.load(Ordering::Relaxed) {
+        let deadline = match station.round() {
+            Ok(deadline) => deadline,
+            Err(error) => return lost(&error, streams),
+        };
+        while let Some(event) = station.bus.event() {
+            log.bus(streams, &event)?;
+        }
+        for event in station.device.take_events() {
+            log.device(streams, &event)?;
+        }
+        let patience = station.bus.now() + PATIENCE;
+        if let Err(error) = station.bus.wait(deadline.min(patience)) {
+            return lost(&error, streams);
+        }
+    }
+    Ok(Exit::Clean)
+}
+
+fn lost(error: &BusError, streams: &mut Streams) -> io::Result<Exit> {
+    streams.complain(format_args!("{error}"));
+    Ok(Exit::Failed)
 }
 
 /// Reads a file and lays its dictionary out; with the node-ID that a DCF commissions.
@@ -102,68 +118,4 @@ fn hub_options(listen: Option<SocketAddr>) -> HubOptions {
     let Some(listen) = listen else { return HubOptions::default() };
     let next = if listen.port() == 0 { 0 } else { listen.port().saturating_add(1) };
     HubOptions { socketcand: Some(listen), slcan: Some(SocketAddr::new(listen.ip(), next)) }
-}
-
-fn serve(
-    mut node: Node<LoadedDictionary, VolatileStorage>,
-    bus: &mut dyn Bus,
-    log: &mut Log,
-    stop: &AtomicBool,
-    streams: &mut Streams,
-) -> io::Result<Exit> {
-    let mut device = LoadedDevice::default();
-    // A frame that the bus has not taken yet.
-    let mut waiting: Option<Frame> = None;
-    while !stop.load(Ordering::Relaxed) {
-        match step(&mut node, &mut device, bus, &mut waiting) {
-            Ok(()) => {}
-            Err(error) => {
-                streams.complain(format_args!("{error}"));
-                return Ok(Exit::Failed);
-            }
-        }
-        while let Some(event) = bus.event() {
-            log.bus(streams, &event)?;
-        }
-        for event in device.take_events() {
-            log.device(streams, &event)?;
-        }
-    }
-    Ok(Exit::Clean)
-}
-
-/// One round: takes what has arrived, sends what is due, and waits for more.
-fn step(
-    node: &mut Node<LoadedDictionary, VolatileStorage>,
-    device: &mut LoadedDevice,
-    bus: &mut dyn Bus,
-    waiting: &mut Option<Frame>,
-) -> Result<(), BusError> {
-    while let Some(received) = bus.receive()? {
-        node.receive(bus.now(), &received.frame, device);
-        send_all(node, bus, waiting);
-    }
-    node.poll(bus.now(), device);
-    send_all(node, bus, waiting);
-    let now = bus.now();
-    let patience = edskit_runtime::Microseconds(PATIENCE);
-    bus.wait(node.next_deadline(now).min(now + patience))
-}
-
-fn send_all(
-    node: &mut Node<LoadedDictionary, VolatileStorage>,
-    bus: &mut dyn Bus,
-    waiting: &mut Option<Frame>,
-) {
-    while let Some(frame) = waiting.take().or_else(|| node.transmit()) {
-        match bus.send(&frame) {
-            Ok(()) => {}
-            Err(SendError::Full) => {
-                *waiting = Some(frame);
-                return;
-            }
-            // Nobody can be told over a bus that is away; the frame is gone as on a real one.
-            Err(_) => {}
-        }
-    }
 }
