@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::time::Timer;
-use crate::{Frame, Instant, Microseconds, Pattern};
+use crate::{Instant, Microseconds, Pattern};
 use edskit_types::{AbortCode, CobId, Index};
 
 /// How many errors can be present at once; further ones are in the register, but cannot be told from each other.
@@ -63,14 +63,18 @@ struct Present {
 #[derive(Debug)]
 pub(crate) struct Emcy {
     present: [Option<Present>; MOST_ERRORS],
-    waiting: [Option<Emergency>; MOST_WAITING],
+    /// A ring of messages that wait: `count` of them from `first` on.
+    waiting: [Emergency; MOST_WAITING],
+    first: usize,
+    count: usize,
     /// Until when no message may be sent.
     inhibit: Timer,
 }
 
 impl Emcy {
     pub(crate) const fn new() -> Self {
-        Self { present: [None; MOST_ERRORS], waiting: [None; MOST_WAITING], inhibit: Timer::OFF }
+        let waiting = [Emergency { code: 0, register: 0, info: [0; 5] }; MOST_WAITING];
+        Self { present: [None; MOST_ERRORS], waiting, first: 0, count: 0, inhibit: Timer::OFF }
     }
 
     /// The error register that follows from what is present.
@@ -95,12 +99,31 @@ impl Emcy {
         }
     }
 
+    /// The message that has waited longest.
+    fn first(&self) -> Option<Emergency> {
+        self.waiting.get(self.first).copied().filter(|_| self.count > 0)
+    }
+
+    fn drop_first(&mut self) {
+        self.first = (self.first + 1) % MOST_WAITING;
+        self.count -= 1;
+    }
+
+    /// The oldest messages stay: they tell what came first.
+    fn append(&mut self, emergency: Emergency) {
+        let place = self.waiting.get_mut((self.first + self.count) % MOST_WAITING);
+        if let Some(place) = place.filter(|_| self.count < MOST_WAITING) {
+            *place = emergency;
+            self.count += 1;
+        }
+    }
+
     /// When a waiting message may be sent.
     pub(crate) fn deadline(&self) -> Instant {
-        match self.waiting.first() {
-            Some(Some(_)) if self.inhibit.is_running() => self.inhibit.deadline(),
-            Some(Some(_)) => Instant::default(),
-            _ => Instant::NEVER,
+        match self.count {
+            0 => Instant::NEVER,
+            _ if self.inhibit.is_running() => self.inhibit.deadline(),
+            _ => Instant::default(),
         }
     }
 }
@@ -133,10 +156,7 @@ impl Context<'_> {
     fn tell(&mut self, emergency: Emergency) {
         self.objects.set_value(Index::ERROR_REGISTER, 0, emergency.register);
         self.app.emergency(&mut self.objects, &emergency);
-        // The oldest messages stay: they tell what came first.
-        if let Some(free) = self.core.emcy.waiting.iter_mut().find(|waiting| waiting.is_none()) {
-            *free = Some(emergency);
-        }
+        self.core.emcy.append(emergency);
         self.send_emergencies();
     }
 
@@ -172,30 +192,27 @@ impl Context<'_> {
     /// Sends what waits, as far as the state, the inhibit time and the queue allow.
     pub(crate) fn send_emergencies(&mut self) {
         // Almost always nothing waits, and this is asked with every call of the node.
-        if self.core.emcy.waiting.iter().all(Option::is_none) || !self.is_communicating() {
+        if self.core.emcy.count == 0 || !self.is_communicating() {
             return;
         }
         let Some(cob_id) = self.objects.value(Index::EMCY_COB_ID, 0).map(CobId) else {
-            self.core.emcy.waiting = [None; MOST_WAITING];
+            self.core.emcy.count = 0;
             return;
         };
         let inhibit = Microseconds::from_inhibit_time(self.objects.value(Index(0x1015), 0).unwrap_or(0));
         loop {
             let is_inhibited =
                 self.core.emcy.inhibit.is_running() && !self.core.emcy.inhibit.is_due(self.now);
-            let Some(Some(emergency)) = self.core.emcy.waiting.first().copied() else { return };
+            let Some(emergency) = self.core.emcy.first() else { return };
             if is_inhibited || self.core.queue.room() == 0 {
                 return;
             }
-            self.core.emcy.waiting.rotate_left(1);
-            if let Some(last) = self.core.emcy.waiting.last_mut() {
-                *last = None;
-            }
+            self.core.emcy.drop_first();
             if cob_id.is_valid() {
                 let [low, high] = emergency.code.to_le_bytes();
                 let [a, b, c, d, e] = emergency.info;
                 let data = [low, high, emergency.register, a, b, c, d, e];
-                self.core.queue.push(Frame::new(cob_id.can_id(), &data));
+                self.core.queue.send(cob_id.can_id(), &data);
                 self.core.emcy.inhibit = Timer::after(self.now, inhibit);
             }
         }

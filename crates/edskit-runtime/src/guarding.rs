@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
-use crate::{Error, Frame, Instant, Microseconds};
+use crate::{Error, Instant, Microseconds};
 use edskit_types::{CanId, Index};
 
 /// What tells this error apart from a missing heartbeat of a node.
@@ -38,7 +38,7 @@ impl Context<'_> {
             return;
         }
         let toggle = u8::from(self.core.guarding.toggle) << 7;
-        self.core.queue.push(Frame::new(can_id, &[toggle | self.core.state.code()]));
+        self.core.queue.send(can_id, &[toggle | self.core.state.code()]);
         self.core.guarding.toggle = !self.core.guarding.toggle;
         self.core.guarding.life = Timer::after(self.now, self.life_time());
         self.clear(Error::HEARTBEAT, MASTER);

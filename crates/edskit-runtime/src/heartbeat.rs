@@ -80,7 +80,7 @@ impl Context<'_> {
 
     fn send_heartbeat(&mut self) {
         if let Some(node_id) = self.core.node_id {
-            self.core.queue.push(Frame::new(error_control(node_id), &[self.core.state.code()]));
+            self.core.queue.send(error_control(node_id), &[self.core.state.code()]);
         }
     }
 

@@ -134,11 +134,12 @@ impl Context<'_> {
 
     fn answer(&mut self, data: [u8; MOST_DATA]) {
         if let Some(can_id) = CanId::standard(RESPONSE) {
-            self.core.queue.push(Frame::new(can_id, &data));
+            self.core.queue.send(can_id, &data);
         }
     }
 
     /// A number of the identity 1018h: 0 the vendor-ID, 1 the product code, 2 the revision number, 3 the serial number.
+    #[inline(never)]
     fn identity(&self, number: u8) -> u32 {
         self.objects.value(Index::IDENTITY, number.saturating_add(1)).unwrap_or_default()
     }

@@ -73,7 +73,7 @@ impl Context<'_> {
         self.app.reset(&mut self.objects, reset);
         self.configure();
         let Some(node_id) = node_id else { return };
-        self.core.queue.push(Frame::new(error_control(node_id), &[NmtState::Initialising.code()]));
+        self.core.queue.send(error_control(node_id), &[NmtState::Initialising.code()]);
         self.enter_pre_operational();
         if self.starts_by_itself() {
             self.enter(NmtState::Operational);

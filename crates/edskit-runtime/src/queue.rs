@@ -1,6 +1,7 @@
 //! Frames that wait to be sent.
 
 use crate::Frame;
+use edskit_types::CanId;
 
 /// How many frames can wait. A block of 127 SDO segments is not queued at once; it follows as the queue empties.
 const CAPACITY: usize = 16;
@@ -20,8 +21,13 @@ impl Queue {
         Self { frames: [None; CAPACITY], first: 0, length: 0, has_overflown: false }
     }
 
-    /// Appends a frame; false where there is no room, and the frame is lost.
-    pub(crate) fn push(&mut self, frame: Frame) -> bool {
+    /// Appends a data frame; false where there is no room, and the frame is lost.
+    #[inline(never)]
+    pub(crate) fn send(&mut self, can_id: CanId, data: &[u8]) -> bool {
+        self.push(Frame::new(can_id, data))
+    }
+
+    fn push(&mut self, frame: Frame) -> bool {
         let place = (self.first + self.length) % CAPACITY;
         match self.frames.get_mut(place) {
             Some(slot) if self.length < CAPACITY => {
@@ -61,7 +67,6 @@ impl Queue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use edskit_types::CanId;
 
     fn frame(number: u8) -> Frame {
         Frame::new(CanId::NMT, &[number])

@@ -126,7 +126,7 @@ impl Context<'_> {
         if data != SAVE {
             return Err(AbortCode::CANNOT_TRANSFER);
         }
-        self.for_groups(sub_index, Self::save_group)
+        self.for_groups(sub_index, true)
     }
 
     /// 1011h is written: forgets what is stored of a group, or all. The values change with the next reset.
@@ -134,18 +134,17 @@ impl Context<'_> {
         if data != LOAD {
             return Err(AbortCode::CANNOT_TRANSFER);
         }
-        self.for_groups(sub_index, |context, group| context.storage.erase(Record::Values(group)))
+        self.for_groups(sub_index, false)
     }
 
-    fn for_groups(
-        &mut self,
-        sub_index: SubIndex,
-        mut act: impl FnMut(&mut Self, StorageGroup) -> Result<(), StorageError>,
-    ) -> Result<(), AbortCode> {
-        for group in (2..=0x7F).map(StorageGroup) {
-            if [ALL_GROUPS, group.0].contains(&sub_index.0) && has_members(self.objects.table, group) {
-                act(self, group).map_err(|StorageError| AbortCode::HARDWARE_ERROR)?;
+    /// Saves the groups that a sub-index of 1010h or 1011h stands for, or forgets what is stored of them.
+    fn for_groups(&mut self, sub_index: SubIndex, saves: bool) -> Result<(), AbortCode> {
+        for group in groups(self.objects.table) {
+            if ![ALL_GROUPS, group.0].contains(&sub_index.0) {
+                continue;
             }
+            let done = if saves { self.save_group(group) } else { self.storage.erase(Record::Values(group)) };
+            done.map_err(|StorageError| AbortCode::HARDWARE_ERROR)?;
         }
         Ok(())
     }
@@ -175,10 +174,7 @@ impl Context<'_> {
     /// Loads the stored values of the groups that `is_chosen` chooses entries of, over the defaults. What is torn or
     /// belongs to another dictionary is left, and that is an error of the device.
     pub(crate) fn load_parameters(&mut self, is_chosen: impl Fn(&Entry) -> bool) {
-        for group in (2..=0x7F).map(StorageGroup) {
-            if !has_members(self.objects.table, group) {
-                continue;
-            }
+        for group in groups(self.objects.table) {
             match self.check_record(Record::Values(group)) {
                 Ok(Some(length)) => self.load_group(group, length, &is_chosen),
                 Ok(None) => {}
@@ -249,8 +245,18 @@ impl Context<'_> {
     }
 }
 
-fn has_members(table: &Table<'_>, group: StorageGroup) -> bool {
-    members(table, group).next().is_some()
+/// The groups that have members, in ascending order.
+fn groups<'a>(table: &Table<'a>) -> impl Iterator<Item = StorageGroup> + use<'a> {
+    let entries = table.entries;
+    let next = move |last: &StorageGroup| next_group(entries, *last);
+    core::iter::successors(next_group(entries, StorageGroup(0)), next)
+}
+
+/// The lowest group above `last` that has a member.
+#[inline(never)]
+fn next_group(entries: &[Entry], last: StorageGroup) -> Option<StorageGroup> {
+    let variable = entries.iter().filter(|entry| entry.flags.has(Flags::VARIABLE));
+    variable.filter_map(|entry| entry.flags.group()).filter(|group| *group > last).min()
 }
 
 /// The entries of a group with their positions.

@@ -117,11 +117,7 @@ impl Context<'_> {
         if let Some(counter) = counter {
             self.core.sync.next_counter = if counter >= overflow { 1 } else { counter + 1 };
         }
-        let frame = match counter {
-            Some(counter) => Frame::new(can_id, &[counter]),
-            None => Frame::new(can_id, &[]),
-        };
-        self.core.queue.push(frame);
+        self.core.queue.send(can_id, counter.as_slice());
         self.synchronise(counter);
     }
 

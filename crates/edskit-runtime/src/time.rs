@@ -66,6 +66,7 @@ impl Timer {
     pub(crate) const OFF: Self = Self(Instant::NEVER);
 
     /// Due after `duration`; off where that is 0.
+    #[inline(never)]
     pub(crate) fn after(now: Instant, duration: Microseconds) -> Self {
         if duration.0 == 0 { Self::OFF } else { Self(now + duration) }
     }
@@ -74,6 +75,7 @@ impl Timer {
         self != Self::OFF
     }
 
+    #[inline(never)]
     pub(crate) fn is_due(self, now: Instant) -> bool {
         self.is_running() && self.0 <= now
     }

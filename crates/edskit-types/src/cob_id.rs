@@ -1,6 +1,7 @@
 //! Identifiers on the bus and the objects that configure them.
 
 use core::fmt;
+use core::num::NonZeroU32;
 
 /// Identifier of a CAN frame: 11 bits (base format) or 29 bits (extended format).
 ///
@@ -13,55 +14,62 @@ use core::fmt;
 /// assert_eq!(CanId::extended(0x181).unwrap().to_string(), "00000181h");
 /// assert_eq!(CanId::standard(0x800), None);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct CanId(Repr);
-
-/// Private, so that the widths checked by the constructors hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-enum Repr {
-    Standard(u16),
-    Extended(u32),
-}
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CanId(
+    /// The number, [`CobId::FRAME`] for 29 bits, and always [`CanId::MARK`]: so `Option<CanId>` needs no further word.
+    NonZeroU32,
+);
 
 impl CanId {
     /// 000h: network management commands.
-    pub const NMT: CanId = CanId(Repr::Standard(0));
+    pub const NMT: CanId = Self::of(0);
+
+    const MARK: u32 = 1 << 31;
+
+    const fn of(bits: u32) -> Self {
+        match NonZeroU32::new(bits | Self::MARK) {
+            Some(bits) => Self(bits),
+            None => Self(NonZeroU32::MIN),
+        }
+    }
 
     /// An 11-bit identifier, or `None` above 7FFh.
     #[must_use]
     pub const fn standard(id: u16) -> Option<CanId> {
-        if id <= 0x7FF { Some(CanId(Repr::Standard(id))) } else { None }
+        if id <= 0x7FF { Some(Self::of(id as u32)) } else { None }
     }
 
     /// A 29-bit identifier, or `None` above 1FFFFFFFh.
     #[must_use]
     pub const fn extended(id: u32) -> Option<CanId> {
-        if id <= 0x1FFF_FFFF { Some(CanId(Repr::Extended(id))) } else { None }
+        if id <= CobId::EXTENDED_MASK { Some(Self::of(id | CobId::FRAME)) } else { None }
     }
 
     /// The number without the format: at most 7FFh or 1FFFFFFFh.
     #[must_use]
     pub const fn raw(self) -> u32 {
-        match self.0 {
-            Repr::Standard(id) => id as u32,
-            Repr::Extended(id) => id,
-        }
+        self.0.get() & CobId::EXTENDED_MASK
     }
 
     /// Whether the identifier has 29 bits.
     #[must_use]
     pub const fn is_extended(self) -> bool {
-        matches!(self.0, Repr::Extended(_))
+        self.0.get() & CobId::FRAME != 0
     }
 }
 
 /// Three digits and `h`, or eight digits and `h` for 29 bits.
 impl fmt::Display for CanId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Repr::Standard(id) => write!(f, "{id:03X}h"),
-            Repr::Extended(id) => write!(f, "{id:08X}h"),
-        }
+        let id = self.raw();
+        if self.is_extended() { write!(f, "{id:08X}h") } else { write!(f, "{id:03X}h") }
+    }
+}
+
+/// `CanId(181h)`: the bits are unreadable in decimal.
+impl fmt::Debug for CanId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "CanId({self})")
     }
 }
 
@@ -128,11 +136,8 @@ impl CobId {
     /// The CAN identifier, of the width that the frame bit names. Stray bits are ignored.
     #[must_use]
     pub const fn can_id(self) -> CanId {
-        if self.is_extended() {
-            CanId(Repr::Extended(self.0 & Self::EXTENDED_MASK))
-        } else {
-            CanId(Repr::Standard((self.0 & Self::STANDARD_MASK) as u16))
-        }
+        let width = if self.is_extended() { Self::FRAME | Self::EXTENDED_MASK } else { Self::STANDARD_MASK };
+        CanId::of(self.0 & width)
     }
 
     /// Whether the frame bit is 0 and yet one of the bits 28 to 11 is 1: such a value is wrong, or lacks the

@@ -45,16 +45,41 @@ macro_rules! data_types {
                 }
             }
 
-            const fn row(self) -> &'static Row {
+            // One look-up for each column: a program that needs no names holds none of them.
+
+            /// The name in the standard, such as `UNSIGNED8`.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
                 match self {
-                    $(
-                        DataType::$variant => &Row {
-                            name: $name,
-                            bits: $bits,
-                            kind: DataTypeKind::$kind,
-                            rust_type: $rust_type,
-                        },
-                    )+
+                    $( DataType::$variant => $name, )+
+                }
+            }
+
+            /// The size of a value in bits, 1 to 64, or `None` if the size varies or the type is a record.
+            #[must_use]
+            pub const fn bits(self) -> Option<u16> {
+                match self {
+                    $( DataType::$variant => $bits, )+
+                }
+            }
+
+            /// How values of this type are read and written.
+            #[must_use]
+            pub const fn kind(self) -> DataTypeKind {
+                match self {
+                    $( DataType::$variant => DataTypeKind::$kind, )+
+                }
+            }
+
+            /// The Rust type that holds a value.
+            ///
+            /// Integers and reals take the smallest Rust number of enough bits. `[u8; N]` and `[u16; N]` leave the
+            /// length to the object, `[u8]` stands for a domain, and `struct` for a record, whose members the
+            /// sub-objects name.
+            #[must_use]
+            pub const fn rust_type(self) -> &'static str {
+                match self {
+                    $( DataType::$variant => $rust_type, )+
                 }
             }
         }
@@ -122,47 +147,11 @@ data_types! {
     0x0023 Identity "IDENTITY" None, Record "struct";
 }
 
-/// One row of the table above, without what the enum itself holds.
-struct Row {
-    name: &'static str,
-    bits: Option<u16>,
-    kind: DataTypeKind,
-    rust_type: &'static str,
-}
-
 impl DataType {
     /// The index of the type, 0001h to 0023h.
     #[must_use]
     pub const fn index(self) -> Index {
         Index(self as u16)
-    }
-
-    /// The name in the standard, such as `UNSIGNED8`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        self.row().name
-    }
-
-    /// The size of a value in bits, 1 to 64, or `None` if the size varies or the type is a record.
-    #[must_use]
-    pub const fn bits(self) -> Option<u16> {
-        self.row().bits
-    }
-
-    /// How values of this type are read and written.
-    #[must_use]
-    pub const fn kind(self) -> DataTypeKind {
-        self.row().kind
-    }
-
-    /// The Rust type that holds a value.
-    ///
-    /// Integers and reals take the smallest Rust number of enough bits. `[u8; N]` and `[u16; N]` leave the
-    /// length to the object, `[u8]` stands for a domain, and `struct` for a record, whose members the
-    /// sub-objects name.
-    #[must_use]
-    pub const fn rust_type(self) -> &'static str {
-        self.row().rust_type
     }
 
     /// Whether the type is one of INTEGERn and UNSIGNEDn; BOOLEAN is not.

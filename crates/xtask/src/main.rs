@@ -5,6 +5,7 @@ mod docs;
 mod python;
 mod step;
 mod test;
+mod thumb;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -15,7 +16,8 @@ const USAGE: &str = "\
 Usage: cargo xtask TASK
 
 Tasks:
-  test          Everything that has to hold: formatting, lints, tests, documents, benchmarks that compile
+  test [WORD]   Everything that has to hold: formatting, lints, tests, documents, benchmarks that compile; with words,
+                only the steps whose titles have one of them
   docs          Write the generated documents again
   field-report  Write docs/field-report.md again; needs the shared folder
 ";
@@ -23,7 +25,7 @@ Tasks:
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["test"] => test::run_all(),
+        ["test", ref words @ ..] => test::run(words),
         ["docs"] => docs::run(),
         ["field-report"] => docs::run_field_report(),
         ["help" | "--help" | "-h"] => {

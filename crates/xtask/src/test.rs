@@ -1,7 +1,7 @@
 //! `cargo xtask test`: the one command that says whether everything holds.
 
-use crate::step::{Outcome, cargo, run};
-use crate::{conformance, is_ci, python, say};
+use crate::step::{self, Outcome, cargo};
+use crate::{conformance, is_ci, python, say, thumb};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -10,10 +10,10 @@ type Step = (&'static str, fn() -> Outcome);
 
 /// What has to hold.
 const STEPS: &[Step] = &[
-    ("formatting", || run(&mut cargo(&["fmt", "--all", "--check"]))),
-    ("lints", || run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
+    ("formatting", || step::run(&mut cargo(&["fmt", "--all", "--check"]))),
+    ("lints", || step::run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
     ("lints of what is behind a feature", || {
-        run(&mut cargo(&[
+        step::run(&mut cargo(&[
             "clippy",
             "--package=edskit-host",
             "--features=socketcan",
@@ -23,18 +23,22 @@ const STEPS: &[Step] = &[
             "warnings",
         ]))
     }),
-    ("tests", || run(&mut cargo(&["test", "--workspace"]))),
+    ("tests", || step::run(&mut cargo(&["test", "--workspace"]))),
     ("documentation", documentation),
-    ("benchmarks compile", || run(&mut cargo(&["bench", "-p", "edskit-benches", "--no-run"]))),
+    ("benchmarks compile", || step::run(&mut cargo(&["bench", "-p", "edskit-benches", "--no-run"]))),
     ("fuzz targets compile", fuzz_targets),
+    ("no operating system below the runtime", thumb::no_std),
+    ("size of a firmware", thumb::firmware),
     ("independent reading of the corpus", python::independent_reading),
     ("conformance of a loaded file", conformance::of_a_loaded_file),
 ];
 
-/// Runs every step, also behind one that failed, and ends with a summary.
-pub(crate) fn run_all() -> ExitCode {
+/// Runs every step, also behind one that failed, and ends with a summary; with words only the steps whose titles have
+/// one of them.
+pub(crate) fn run(words: &[&str]) -> ExitCode {
+    let is_chosen = |(title, _): &&Step| words.is_empty() || words.iter().any(|word| title.contains(word));
     let mut summary = Vec::new();
-    for (title, step) in STEPS {
+    for (title, step) in STEPS.iter().filter(is_chosen) {
         say(format_args!("\n=== {title} ==="));
         let start = Instant::now();
         let outcome = match step() {
@@ -50,8 +54,12 @@ pub(crate) fn run_all() -> ExitCode {
         say(format_args!("{title:34} {:>5} s  {outcome}", time.as_secs()));
     }
     let failed = summary.iter().filter(|(_, outcome, _)| matches!(outcome, Outcome::Failed(_))).count();
+    if summary.is_empty() {
+        say("no step has such a title");
+        return ExitCode::FAILURE;
+    }
     if failed > 0 {
-        say(format_args!("FAILED: {failed} of {} steps", STEPS.len()));
+        say(format_args!("FAILED: {failed} of {} steps", summary.len()));
         return ExitCode::FAILURE;
     }
     say("everything holds");
@@ -59,15 +67,15 @@ pub(crate) fn run_all() -> ExitCode {
 }
 
 fn documentation() -> Outcome {
-    run(cargo(&["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
+    step::run(cargo(&["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// They are a workspace of their own, which the other steps do not see.
 fn fuzz_targets() -> Outcome {
     let manifest = "--manifest-path=tests/fuzz/Cargo.toml";
-    match run(&mut cargo(&["fmt", manifest, "--check"])) {
+    match step::run(&mut cargo(&["fmt", manifest, "--check"])) {
         Outcome::Passed => {
-            run(&mut cargo(&["clippy", manifest, "--target-dir=target/fuzz", "--", "-D", "warnings"]))
+            step::run(&mut cargo(&["clippy", manifest, "--target-dir=target/fuzz", "--", "-D", "warnings"]))
         }
         outcome => outcome,
     }

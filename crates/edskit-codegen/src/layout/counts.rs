@@ -7,8 +7,8 @@ use edskit_types::{DataType, Index, SubIndex};
 const COB_ID: SubIndex = SubIndex(1);
 /// The most entries that a mapping can have.
 const MOST_MAPPED: u8 = 64;
-/// Values up to this size need no buffer.
-const EXPEDITED: u16 = 8;
+/// A server's buffer has at least so many bytes, so that no number changes while it is read.
+const SMALLEST_BUFFER: u16 = 8;
 
 /// The sizes of a [`Memory`](edskit_runtime::Memory) besides that of the values.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -23,7 +23,7 @@ pub struct Counts {
     pub servers: usize,
     /// Heartbeat consumers: the sub-indices of 1016h.
     pub consumers: usize,
-    /// Bytes of all SDO servers together for values that do not fit one frame.
+    /// Bytes of all SDO servers together for values on their way.
     pub buffers: usize,
 }
 
@@ -47,17 +47,17 @@ impl Counts {
         let servers = 1 + others.count();
         let consumer = |entry: &&Entry| entry.index == Index::CONSUMER_HEARTBEAT;
         let consumers = entries.iter().filter(consumer).map(|entry| entry.sub_index.0.into()).max();
-        let is_buffered = |entry: &&Entry| {
-            entry.flags.has(Flags::WRITE) && entry.data_type != DataType::Domain && entry.size > EXPEDITED
-        };
+        let is_buffered =
+            |entry: &&Entry| entry.flags.has(Flags::WRITE) && entry.data_type != DataType::Domain;
         let longest = entries.iter().filter(is_buffered).map(|entry| entry.size).max().unwrap_or(0);
+        let buffer = longest.max(SMALLEST_BUFFER);
         Self {
             rpdos: pdos(Index::is_rpdo_communication),
             tpdos: pdos(Index::is_tpdo_communication),
             mapped: entries.iter().filter(is_mapped).count(),
             servers,
             consumers: consumers.unwrap_or(0),
-            buffers: servers * usize::from(longest),
+            buffers: servers * usize::from(buffer),
         }
     }
 }

@@ -119,7 +119,7 @@ fn implicit_pdos_have_parameters() {
     let of_eds = layout(info, "");
     assert_eq!(
         of_eds.counts,
-        Counts { rpdos: 5, tpdos: 1, mapped: 24, servers: 1, consumers: 0, buffers: 0 }
+        Counts { rpdos: 5, tpdos: 1, mapped: 24, servers: 1, consumers: 0, buffers: 8 }
     );
     assert_eq!(of_eds.default_of(&entry(&of_eds, 0x1400, 0)), [5]);
     let second = entry(&of_eds, 0x1401, 1);

@@ -73,8 +73,12 @@ impl<'a> Objects<'a> {
     /// The value at `index` and `sub_index`; `None` where there is no such entry.
     #[must_use]
     pub fn value<T: Value>(&self, index: Index, sub_index: u8) -> Option<T> {
-        let position = self.table.find(index, SubIndex(sub_index)).ok()?;
-        Some(T::from_bytes(self.bytes(position)))
+        self.bytes_at(index, sub_index).map(T::from_bytes)
+    }
+
+    #[inline(never)]
+    fn bytes_at(&self, index: Index, sub_index: u8) -> Option<&[u8]> {
+        self.table.find(index, SubIndex(sub_index)).ok().map(|position| self.bytes(position))
     }
 
     /// Gives the entry at `index` and `sub_index` a value, where it exists and can change.
@@ -143,7 +147,7 @@ impl<'a> Objects<'a> {
     ///
     /// # Errors
     /// [`AbortCode::VALUE_TOO_HIGH`] and [`AbortCode::VALUE_TOO_LOW`] by the limits of the EDS, and
-    /// [`AbortCode::INVALID_VALUE`] for a BOOLEAN that is neither 0 nor 1.
+    /// [`AbortCode::INVALID_VALUE`] for a BOOLEAN that is neither 0 nor 1. What is not a number (NaN) is beyond any limit.
     pub fn check_value(&self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         if entry.data_type == DataType::Boolean && data.first().is_some_and(|byte| *byte > 1) {
             return Err(AbortCode::INVALID_VALUE);
@@ -152,26 +156,15 @@ impl<'a> Objects<'a> {
             return Ok(());
         }
         let Some(limits) = self.table.limits(position) else { return Ok(()) };
-        let value = raw(data, entry.data_type.is_signed());
-        let (is_low, is_high) = match entry.data_type {
-            DataType::Real32 => {
-                let real = |bits: u64| f32::from_bits(bits as u32);
-                (real(value) < real(limits.low), real(value) > real(limits.high))
-            }
-            DataType::Real64 => {
-                let real = f64::from_bits;
-                (real(value) < real(limits.low), real(value) > real(limits.high))
-            }
-            data_type if data_type.is_signed() => {
-                ((value as i64) < limits.low as i64, (value as i64) > limits.high as i64)
-            }
-            _ => (value < limits.low, value > limits.high),
-        };
-        match (is_low, is_high) {
-            (true, _) => Err(AbortCode::VALUE_TOO_LOW),
-            (_, true) => Err(AbortCode::VALUE_TOO_HIGH),
-            _ => Ok(()),
+        let data_type = entry.data_type;
+        let value = rank(data_type, raw(data, data_type.is_signed()));
+        if value < rank(data_type, limits.low) {
+            return Err(AbortCode::VALUE_TOO_LOW);
         }
+        if value > rank(data_type, limits.high) {
+            return Err(AbortCode::VALUE_TOO_HIGH);
+        }
+        Ok(())
     }
 
     /// Gives an entry these bytes, of a text as many as fit. The device itself may do so; SDO clients come by the checks
@@ -211,6 +204,20 @@ impl<'a> Objects<'a> {
             }
         }
     }
+}
+
+/// A number that is the higher the higher the value with these bits is. It orders reals without floating-point
+/// instructions, which small processors do not have.
+fn rank(data_type: DataType, bits: u64) -> u64 {
+    const SIGN: u64 = 1 << 63;
+    let signed = match data_type {
+        DataType::Real32 => return rank(DataType::Real64, bits << 32),
+        DataType::Real64 if bits & SIGN != 0 => (bits & !SIGN).wrapping_neg(),
+        DataType::Real64 => bits,
+        data_type if data_type.is_signed() => bits,
+        _ => return bits,
+    };
+    signed ^ SIGN
 }
 
 #[cfg(test)]
@@ -318,6 +325,12 @@ mod tests {
         assert_eq!(
             check(DataType::Real64, (-1.0_f64).to_bits(), 1.0_f64.to_bits(), &2.0_f64.to_le_bytes()),
             Err(AbortCode::VALUE_TOO_HIGH)
+        );
+        let within = |value: f32| check(DataType::Real32, real(0.0), real(1.5), &value.to_le_bytes());
+        assert_eq!([within(-0.0), within(0.0), within(1.5), within(f32::MIN_POSITIVE)], [Ok(()); 4]);
+        assert_eq!(
+            [within(-f32::MIN_POSITIVE), within(1.500_001), within(f32::NAN)],
+            [Err(AbortCode::VALUE_TOO_LOW), Err(AbortCode::VALUE_TOO_HIGH), Err(AbortCode::VALUE_TOO_HIGH)]
         );
     }
 

@@ -26,8 +26,8 @@ pub struct Parts<'a> {
     pub servers: &'a mut [SdoServer],
     /// A place for each entry of 1016h.
     pub consumers: &'a mut [HeartbeatConsumer],
-    /// For each SDO server as many bytes as the longest value has that clients may write, DOMAIN aside. Values of up to
-    /// eight bytes need none.
+    /// For each SDO server as many bytes as the longest value has that clients may write, DOMAIN aside, and
+    /// at least eight.
     pub buffers: &'a mut [u8],
 }
 

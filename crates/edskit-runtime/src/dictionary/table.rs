@@ -46,7 +46,7 @@ impl<'a> Table<'a> {
     /// [`AbortCode::SUB_INDEX_DOES_NOT_EXIST`] if there is none at the sub-index.
     pub fn find(&self, index: Index, sub_index: SubIndex) -> Result<Position, AbortCode> {
         let wanted = key(index, sub_index);
-        let place = self.entries.partition_point(|entry| entry.key() < wanted);
+        let place = self.first_from(wanted);
         let next = self.entries.get(place);
         if next.is_some_and(|entry| entry.key() == wanted) {
             return Ok(Position(place as u16));
@@ -72,10 +72,15 @@ impl<'a> Table<'a> {
         &self,
         index: Index,
     ) -> impl Iterator<Item = (Position, &'a Entry)> + Clone + use<'a> {
-        let wanted = key(index, SubIndex(0));
-        let first = self.entries.partition_point(|entry| entry.key() < wanted);
+        let first = self.first_from(key(index, SubIndex(0)));
         let entries = self.entries.get(first..).unwrap_or_default();
         entries.iter().enumerate().map(move |(offset, entry)| (Position((first + offset) as u16), entry))
+    }
+
+    /// The place of the first entry whose key is not lower.
+    #[inline(never)]
+    fn first_from(&self, wanted: u32) -> usize {
+        self.entries.partition_point(|entry| entry.key() < wanted)
     }
 
     /// Every entry with its position.

@@ -73,6 +73,7 @@ impl Value for f64 {
 }
 
 /// The bits of at most eight bytes, low byte first, sign-extended where asked for.
+#[inline(never)]
 pub(crate) fn raw(bytes: &[u8], is_signed: bool) -> u64 {
     let is_negative = is_signed && bytes.last().is_some_and(|byte| byte & 0x80 != 0);
     let mut all = [if is_negative { 0xFF } else { 0 }; 8];
@@ -80,11 +81,13 @@ pub(crate) fn raw(bytes: &[u8], is_signed: bool) -> u64 {
     u64::from_le_bytes(all)
 }
 
+#[inline(never)]
 fn write_raw(bits: u64, bytes: &mut [u8]) {
     copy(bytes, &bits.to_le_bytes());
 }
 
 /// Copies as many bytes as both have. Unlike `copy_from_slice` it cannot panic.
+#[inline(never)]
 pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;

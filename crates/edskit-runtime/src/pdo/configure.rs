@@ -1,7 +1,7 @@
 //! What clients may write into the parameters of PDOs, and what follows (CiA 301 v4.2, 7.5.2.35 to 7.5.2.38).
 
 use super::mapping::Slots;
-use super::{INVALID, MOST_ENTRIES, Place, Rpdo, Tpdo, sub};
+use super::{MOST_ENTRIES, Parameters, Place, Rpdo, Tpdo, sub};
 use crate::context::Context;
 use crate::time::Timer;
 use crate::{Microseconds, Value};
@@ -45,79 +45,73 @@ impl Context<'_> {
 
     /// Gives a PDO its place among those at work; false where there is none.
     fn add(&mut self, place: Place, position: usize, slots: Slots) -> bool {
-        let number = place.number + 1;
-        match place.direction {
-            PdoDirection::Receive => {
-                let Some(rpdo) = self.rpdos.get_mut(position) else { return false };
-                *rpdo = Rpdo { number, slots, ..Rpdo::NEW };
-            }
-            PdoDirection::Transmit => {
-                let Some(tpdo) = self.tpdos.get_mut(position) else { return false };
-                *tpdo = Tpdo { number, slots, ..Tpdo::NEW };
-            }
-        }
+        let parameters = match place.direction {
+            PdoDirection::Receive => self.rpdos.get_mut(position).map(|rpdo| &mut rpdo.parameters),
+            PdoDirection::Transmit => self.tpdos.get_mut(position).map(|tpdo| &mut tpdo.parameters),
+        };
+        let Some(parameters) = parameters else { return false };
+        parameters.number = place.number + 1;
+        parameters.slots = slots;
         true
     }
 
-    fn rpdo(&mut self, place: Place) -> Option<&mut Rpdo> {
-        self.rpdos.iter_mut().find(|rpdo| rpdo.number == place.number + 1)
-    }
-
-    fn tpdo(&mut self, place: Place) -> Option<&mut Tpdo> {
-        self.tpdos.iter_mut().find(|tpdo| tpdo.number == place.number + 1)
+    #[inline(never)]
+    fn parameters(&mut self, place: Place) -> Option<&mut Parameters> {
+        let is_it = |parameters: &&mut Parameters| parameters.number == place.number + 1;
+        match place.direction {
+            PdoDirection::Receive => self.rpdos.iter_mut().map(|rpdo| &mut rpdo.parameters).find(is_it),
+            PdoDirection::Transmit => self.tpdos.iter_mut().map(|tpdo| &mut tpdo.parameters).find(is_it),
+        }
     }
 
     fn cob_id_of(&self, place: Place) -> CobId {
-        self.objects.value(place.communication(), sub::COB_ID).map_or(INVALID, CobId)
+        self.objects.value(place.communication(), sub::COB_ID).map_or(CobId(CobId::BIT_31), CobId)
     }
 
     fn slots_of(&mut self, place: Place) -> Slots {
-        match place.direction {
-            PdoDirection::Receive => self.rpdo(place).map_or(Slots::NONE, |rpdo| rpdo.slots),
-            PdoDirection::Transmit => self.tpdo(place).map_or(Slots::NONE, |tpdo| tpdo.slots),
-        }
+        self.parameters(place).map_or(Slots::NONE, |parameters| parameters.slots)
     }
 
     /// A communication parameter has been written.
     pub(crate) fn load_communication(&mut self, place: Place) {
         let index = place.communication();
         let cob_id = self.cob_id_of(place);
-        let number =
-            |context: &Self, sub_index| context.objects.value::<u16>(index, sub_index).unwrap_or_default();
-        let transmission = self.objects.value(index, sub::TRANSMISSION_TYPE).unwrap_or(0xFF);
-        let transmission = TransmissionType(transmission);
-        let event_time = Microseconds::from_milliseconds(number(self, sub::EVENT_TIMER).into());
-        let inhibit_time = Microseconds::from_inhibit_time(number(self, sub::INHIBIT_TIME));
+        let can_id = cob_id.is_valid().then(|| cob_id.can_id());
+        let transmission =
+            TransmissionType(self.objects.value(index, sub::TRANSMISSION_TYPE).unwrap_or(0xFF));
+        let event_time: u16 = self.objects.value(index, sub::EVENT_TIMER).unwrap_or_default();
+        let event_time = Microseconds::from_milliseconds(event_time.into());
+        let inhibit_time = self.objects.value(index, sub::INHIBIT_TIME).unwrap_or_default();
         let sync_start = self.objects.value(index, sub::SYNC_START).unwrap_or_default();
         let (now, is_operational) = (self.now, self.core.state == NmtState::Operational);
-        match place.direction {
-            PdoDirection::Receive => {
-                let Some(rpdo) = self.rpdo(place) else { return };
-                rpdo.cob_id = cob_id;
-                rpdo.transmission = transmission;
-                rpdo.event_time = event_time;
-                if rpdo.deadline.is_running() {
-                    rpdo.deadline = Timer::after(now, event_time);
-                }
+        let Some(parameters) = self.parameters(place) else { return };
+        let was_valid = parameters.can_id.is_some();
+        let has_other_time = parameters.event_time != event_time;
+        parameters.can_id = can_id;
+        parameters.allows_rtr = !cob_id.bit30();
+        parameters.transmission = transmission;
+        parameters.event_time = event_time;
+        let number = parameters.number;
+        if place.direction == PdoDirection::Receive {
+            let rpdo = self.rpdos.iter_mut().find(|rpdo| rpdo.parameters.number == number);
+            if let Some(rpdo) = rpdo.filter(|rpdo| rpdo.deadline.is_running()) {
+                rpdo.deadline = Timer::after(now, event_time);
             }
-            PdoDirection::Transmit => {
-                let Some(tpdo) = self.tpdo(place) else { return };
-                let begins = cob_id.is_valid() && !tpdo.cob_id.is_valid();
-                tpdo.cob_id = cob_id;
-                tpdo.transmission = transmission;
-                tpdo.inhibit_time = inhibit_time;
-                tpdo.sync_start = sync_start;
-                if begins {
-                    tpdo.syncs = 0;
-                    tpdo.waits_for_start = sync_start > 0;
-                    tpdo.is_due = is_operational;
-                }
-                if begins || event_time != tpdo.event_time {
-                    tpdo.event_time = event_time;
-                    let runs = is_operational && cob_id.is_valid() && transmission.0 >= 254;
-                    tpdo.event = if runs { Timer::after(now, event_time) } else { Timer::OFF };
-                }
-            }
+            return;
+        }
+        let tpdo = self.tpdos.iter_mut().find(|tpdo| tpdo.parameters.number == number);
+        let Some(tpdo) = tpdo else { return };
+        tpdo.inhibit_time = Microseconds::from_inhibit_time(inhibit_time);
+        tpdo.sync_start = sync_start;
+        let begins = can_id.is_some() && !was_valid;
+        if begins {
+            tpdo.syncs = 0;
+            tpdo.waits_for_start = sync_start > 0;
+            tpdo.is_due = is_operational;
+        }
+        if begins || has_other_time {
+            let runs = is_operational && can_id.is_some() && transmission.0 >= 254;
+            tpdo.event = if runs { Timer::after(now, event_time) } else { Timer::OFF };
         }
     }
 
@@ -126,19 +120,9 @@ impl Context<'_> {
         let slots = self.slots_of(place);
         let count = self.objects.value(place.mapping(), 0).unwrap_or_default();
         let mapped = self.map(place, slots, count);
-        let loaded = mapped.unwrap_or(Slots { count: 0, bits: 0, ..slots });
-        match place.direction {
-            PdoDirection::Receive => {
-                if let Some(rpdo) = self.rpdo(place) {
-                    rpdo.slots = loaded;
-                }
-            }
-            PdoDirection::Transmit => {
-                if let Some(tpdo) = self.tpdo(place) {
-                    tpdo.slots = loaded;
-                    tpdo.is_mapping_invalid = mapped.is_err();
-                }
-            }
+        if let Some(parameters) = self.parameters(place) {
+            parameters.slots = mapped.unwrap_or(Slots { count: 0, bits: 0, ..slots });
+            parameters.is_mapping_invalid = mapped.is_err();
         }
     }
 

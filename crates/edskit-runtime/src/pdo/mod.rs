@@ -9,7 +9,9 @@ pub use mapping::Mapped;
 pub use receive::Rpdo;
 pub use transmit::{NotSent, Tpdo};
 
-use edskit_types::{CobId, Index, PdoDirection};
+use crate::Microseconds;
+use edskit_types::{CanId, Index, PdoDirection, TransmissionType};
+use mapping::Slots;
 
 /// How many PDOs of each direction there can be.
 const MOST_PDOS: u16 = 512;
@@ -68,8 +70,34 @@ impl Place {
     }
 }
 
-/// A COB-ID that means: there is no such PDO.
-const INVALID: CobId = CobId(CobId::BIT_31);
+/// What the dictionary says about a PDO of either direction.
+#[derive(Clone, Copy, Debug)]
+struct Parameters {
+    /// Its number from 1; 0 for a place that no PDO takes.
+    number: u16,
+    /// The identifier; `None` while the PDO does not exist.
+    can_id: Option<CanId>,
+    /// Whether remote frames may ask for it.
+    allows_rtr: bool,
+    transmission: TransmissionType,
+    /// The time after which a TPDO is sent again, or the longest time between two frames of an RPDO; 0 for none.
+    event_time: Microseconds,
+    slots: Slots,
+    /// Whether the mapping in the dictionary cannot be carried.
+    is_mapping_invalid: bool,
+}
+
+impl Parameters {
+    const NONE: Self = Self {
+        number: 0,
+        can_id: None,
+        allows_rtr: false,
+        transmission: TransmissionType(0xFF),
+        event_time: Microseconds(0),
+        slots: Slots::NONE,
+        is_mapping_invalid: false,
+    };
+}
 
 #[cfg(test)]
 mod tests {

@@ -1,26 +1,19 @@
 //! TPDOs: when they are sent, and why they are not.
 
-use super::INVALID;
-use super::mapping::{Slots, gather};
+use super::Parameters;
+use super::mapping::gather;
 use crate::context::Context;
 use crate::dictionary::Position;
 use crate::time::Timer;
-use crate::{Frame, Instant, Microseconds};
-use edskit_types::{CanId, CobId, NmtState, PdoDirection, Transmission, TransmissionType};
+use crate::{Instant, Microseconds};
+use edskit_types::{CanId, NmtState, PdoDirection, Transmission};
 
 /// A TPDO at work.
 #[derive(Clone, Copy, Debug)]
 pub struct Tpdo {
-    /// Its number from 1; 0 for a place that no PDO takes.
-    pub(super) number: u16,
-    pub(super) cob_id: CobId,
-    pub(super) transmission: TransmissionType,
+    pub(super) parameters: Parameters,
     pub(super) inhibit_time: Microseconds,
-    pub(super) event_time: Microseconds,
     pub(super) sync_start: u8,
-    pub(super) slots: Slots,
-    /// Whether the mapping in the dictionary cannot be carried.
-    pub(super) is_mapping_invalid: bool,
     /// Whether an event has happened that has not been sent yet.
     pub(super) is_due: bool,
     /// Runs while the PDO must not be sent again.
@@ -38,14 +31,9 @@ pub struct Tpdo {
 impl Tpdo {
     /// A place for a TPDO.
     pub const NEW: Self = Self {
-        number: 0,
-        cob_id: INVALID,
-        transmission: TransmissionType(0xFF),
+        parameters: Parameters::NONE,
         inhibit_time: Microseconds(0),
-        event_time: Microseconds(0),
         sync_start: 0,
-        slots: Slots::NONE,
-        is_mapping_invalid: false,
         is_due: false,
         inhibit: Timer::OFF,
         event: Timer::OFF,
@@ -55,7 +43,7 @@ impl Tpdo {
     };
 
     fn meaning(&self) -> Transmission {
-        self.transmission.meaning(PdoDirection::Transmit)
+        self.parameters.transmission.meaning(PdoDirection::Transmit)
     }
 
     fn is_event_driven(&self) -> bool {
@@ -64,7 +52,7 @@ impl Tpdo {
 
     /// Whether the PDO exists and carries something.
     fn is_usable(&self) -> bool {
-        self.cob_id.is_valid() && self.slots.count > 0
+        self.parameters.can_id.is_some() && self.parameters.slots.count > 0
     }
 
     fn is_inhibited(&self, now: Instant) -> bool {
@@ -119,7 +107,11 @@ impl Context<'_> {
             tpdo.syncs = 0;
             tpdo.waits_for_start = tpdo.sync_start > 0;
             tpdo.sample = None;
-            tpdo.event = if tpdo.is_event_driven() { Timer::after(now, tpdo.event_time) } else { Timer::OFF };
+            tpdo.event = if tpdo.is_event_driven() {
+                Timer::after(now, tpdo.parameters.event_time)
+            } else {
+                Timer::OFF
+            };
         }
     }
 
@@ -139,7 +131,7 @@ impl Context<'_> {
     /// An event of the TPDO with this number from 1 has happened.
     pub(crate) fn tpdo_event(&mut self, number: u16) {
         if self.core.state == NmtState::Operational {
-            let is_it = |tpdo: &&mut Tpdo| tpdo.number == number;
+            let is_it = |tpdo: &&mut Tpdo| tpdo.parameters.number == number;
             if let Some(tpdo) = self.tpdos.iter_mut().find(is_it) {
                 tpdo.is_due = true;
             }
@@ -152,7 +144,7 @@ impl Context<'_> {
             return;
         }
         for tpdo in self.tpdos.iter_mut() {
-            let mut values = tpdo.slots.of(self.mapped).iter();
+            let mut values = tpdo.parameters.slots.of(self.mapped).iter();
             if values.any(|mapped| mapped.position() == Some(position)) {
                 tpdo.is_due = true;
             }
@@ -166,7 +158,7 @@ impl Context<'_> {
         for place in 0..self.tpdos.len() {
             let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
             if tpdo.event.is_due(self.now) {
-                tpdo.event = tpdo.event.again(self.now, tpdo.event_time);
+                tpdo.event = tpdo.event.again(self.now, tpdo.parameters.event_time);
                 tpdo.is_due = true;
             }
             if tpdo.is_due && tpdo.is_event_driven() && !tpdo.is_inhibited(self.now) {
@@ -216,8 +208,9 @@ impl Context<'_> {
             return;
         }
         // Bit 30 of the COB-ID forbids remote requests.
-        let is_asked =
-            |tpdo: &Tpdo| tpdo.is_usable() && !tpdo.cob_id.bit30() && tpdo.cob_id.can_id() == can_id;
+        let is_asked = |tpdo: &Tpdo| {
+            tpdo.is_usable() && tpdo.parameters.allows_rtr && tpdo.parameters.can_id == Some(can_id)
+        };
         let Some(place) = self.tpdos.iter().position(is_asked) else { return };
         let Some(tpdo) = self.tpdos.get(place) else { return };
         match (tpdo.meaning(), tpdo.sample) {
@@ -230,8 +223,8 @@ impl Context<'_> {
     /// The present data of a TPDO.
     fn gather(&mut self, place: usize) -> u64 {
         let Some(tpdo) = self.tpdos.get(place) else { return 0 };
-        let slots = tpdo.slots;
-        self.app.tpdo_due(&mut self.objects, tpdo.number);
+        let slots = tpdo.parameters.slots;
+        self.app.tpdo_due(&mut self.objects, tpdo.parameters.number);
         for mapped in slots.of(self.mapped) {
             let entry = mapped.position().and_then(|position| self.objects.table.entry(position));
             if let Some(entry) = entry {
@@ -251,30 +244,31 @@ impl Context<'_> {
 
     fn send_data(&mut self, place: usize, data: u64) {
         let Some(tpdo) = self.tpdos.get_mut(place) else { return };
+        let Some(can_id) = tpdo.parameters.can_id else { return };
         // Without room the PDO stays due, and carries newer data once there is room.
         if self.core.queue.room() == 0 {
             tpdo.is_due = true;
             return;
         }
         let bytes = data.to_le_bytes();
-        let frame = Frame::new(tpdo.cob_id.can_id(), bytes.get(..tpdo.slots.bytes()).unwrap_or_default());
-        self.core.queue.push(frame);
+        let bytes = bytes.get(..tpdo.parameters.slots.bytes()).unwrap_or_default();
+        self.core.queue.send(can_id, bytes);
         tpdo.is_due = false;
         tpdo.inhibit = Timer::after(self.now, tpdo.inhibit_time);
         if tpdo.is_event_driven() && !tpdo.event.is_running() {
-            tpdo.event = Timer::after(self.now, tpdo.event_time);
+            tpdo.event = Timer::after(self.now, tpdo.parameters.event_time);
         }
     }
 
     /// Why the TPDO with this number from 1 is not being sent at the moment.
     pub(crate) fn why_not_sent(&self, number: u16) -> NotSent {
-        let Some(tpdo) = self.tpdos.iter().find(|tpdo| tpdo.number == number && number > 0) else {
+        let Some(tpdo) = self.tpdos.iter().find(|tpdo| tpdo.parameters.number == number && number > 0) else {
             return NotSent::NoSuchPdo;
         };
         match tpdo.meaning() {
-            _ if !tpdo.cob_id.is_valid() => NotSent::Disabled,
-            _ if tpdo.is_mapping_invalid => NotSent::MappingInvalid,
-            _ if tpdo.slots.count == 0 => NotSent::NothingMapped,
+            _ if tpdo.parameters.can_id.is_none() => NotSent::Disabled,
+            _ if tpdo.parameters.is_mapping_invalid => NotSent::MappingInvalid,
+            _ if tpdo.parameters.slots.count == 0 => NotSent::NothingMapped,
             _ if self.core.state != NmtState::Operational => NotSent::NotOperational(self.core.state),
             Transmission::SynchronousAcyclic if tpdo.is_due => NotSent::WaitsForSync(1),
             Transmission::SynchronousCyclic(_) if tpdo.waits_for_start => {

@@ -3,6 +3,7 @@
 mod block_download;
 mod block_upload;
 mod download;
+mod item;
 mod upload;
 
 use crate::context::Context;
@@ -10,15 +11,23 @@ use crate::time::Timer;
 use crate::{Frame, Instant, MOST_DATA, Microseconds};
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
-use core::ops::Range;
-use download::Download;
 use edskit_types::{AbortCode, CanId, CobId, Index, NmtState, NodeId, SubIndex};
-use upload::Upload;
+use item::Item;
 
 /// How long a client may be silent during a transfer.
 const TIME_OUT: Microseconds = Microseconds::from_milliseconds(1000);
+/// The most bytes of an expedited transfer.
+const EXPEDITED: usize = 4;
 /// How many data bytes a segment has.
 const SEGMENT: usize = 7;
+/// The bit of a segment's command that alternates.
+const TOGGLE: u8 = 0x10;
+/// The most segments of a block.
+const MOST_SEGMENTS: u8 = 127;
+/// In the sequence number of a block's segment: it is the last one of all.
+const LAST_SEGMENT: u8 = 0x80;
+/// Whether a side knows checksums, in the commands that begin a block transfer.
+const BLOCK_CRC: u8 = 4;
 /// Command specifier and abort of a transfer.
 const ABORT: u8 = 0x80;
 /// The bits of a command that name the service.
@@ -35,48 +44,64 @@ pub struct SdoServer {
     index: Index,
     /// The identifiers of requests and responses; `None` while it is not in use.
     can_ids: Option<(CanId, CanId)>,
-    transfer: Transfer,
-    /// Runs while a transfer does.
-    time_out: Timer,
+    session: Session,
 }
 
 impl SdoServer {
     /// A place for a server.
-    pub const NEW: Self =
-        Self { index: DEFAULT, can_ids: None, transfer: Transfer::None, time_out: Timer::OFF };
+    pub const NEW: Self = Self { index: DEFAULT, can_ids: None, session: Session::NONE };
 
     pub(crate) fn takes(&self, can_id: CanId) -> bool {
         self.can_ids.is_some_and(|(request, _)| request == can_id)
     }
 
     pub(crate) fn deadline(&self, has_room: bool) -> Instant {
-        match self.transfer {
-            Transfer::BlockUpload(upload) if upload.is_sending() && has_room => Instant::default(),
-            _ => self.time_out.deadline(),
+        if has_room && self.session.is_sending() {
+            return Instant::default();
         }
+        self.session.time_out.deadline()
     }
 }
 
 /// What a server is in the middle of.
 #[derive(Clone, Copy, Debug)]
+struct Session {
+    transfer: Transfer,
+    /// The value that the transfer is about.
+    item: Item,
+    /// Runs while a transfer does.
+    time_out: Timer,
+}
+
+impl Session {
+    const NONE: Self = Self { transfer: Transfer::None, item: Item::NONE, time_out: Timer::OFF };
+
+    /// Whether it is the server's turn, not the client's.
+    fn is_sending(&self) -> bool {
+        matches!(&self.transfer, Transfer::BlockUpload(upload) if upload.is_sending())
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
 enum Transfer {
     None,
-    Upload(Upload),
-    Download(Download),
+    Upload { toggle: u8 },
+    Download { toggle: u8 },
     BlockUpload(BlockUpload),
     BlockDownload(BlockDownload),
 }
 
-/// Why a request is not answered as hoped: the abort code and the place that the abort message names.
-#[derive(Clone, Copy, Debug)]
-struct Refusal {
-    code: AbortCode,
-    index: Index,
-    sub_index: SubIndex,
+/// What comes after a request.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Next {
+    /// Another request of the same transfer.
+    Request,
+    /// Nothing: the transfer is over.
+    End,
 }
 
-/// What a request leads to.
-type Outcome = Result<Transfer, Refusal>;
+/// What a request leads to: what comes next, or an abort.
+type Step = Result<Next, AbortCode>;
 
 /// The eight bytes of a request.
 type Request = [u8; MOST_DATA];
@@ -93,11 +118,13 @@ fn number_of(request: &Request) -> u32 {
     u32::from_le_bytes([a, b, c, d])
 }
 
-/// A message that names a place and holds four more bytes.
-fn message(command: u8, index: Index, sub_index: SubIndex, data: [u8; 4]) -> Request {
-    let [low, high] = index.0.to_le_bytes();
-    let [a, b, c, d] = data;
-    [command, low, high, sub_index.0, a, b, c, d]
+/// Whether the toggle bit of a command is the one that has to come, and which one comes next.
+fn take_toggle(toggle: &mut u8, command: u8) -> Result<(), AbortCode> {
+    if command & TOGGLE != *toggle {
+        return Err(AbortCode::TOGGLE_BIT);
+    }
+    *toggle ^= TOGGLE;
+    Ok(())
 }
 
 impl Context<'_> {
@@ -127,8 +154,7 @@ impl Context<'_> {
             if index == DEFAULT { self.core.node_id.and_then(default_can_ids) } else { self.can_ids(index) };
         if let Some(server) = self.servers.iter_mut().find(|server| server.index == index) {
             if server.can_ids != can_ids {
-                server.transfer = Transfer::None;
-                server.time_out = Timer::OFF;
+                server.session = Session::NONE;
             }
             server.can_ids = can_ids;
         }
@@ -165,96 +191,94 @@ impl Context<'_> {
     /// A frame for a server.
     pub(crate) fn sdo_request(&mut self, number: usize, frame: &Frame) {
         let (true, Some(request)) = (self.is_communicating(), frame.eight()) else { return };
-        let Some(transfer) = self.servers.get(number).map(|server| server.transfer) else { return };
-        let [command, ..] = request;
-        let outcome = if command == ABORT {
-            Ok(Transfer::None)
-        } else {
-            self.answer_request(number, transfer, &request)
-        };
-        self.settle(number, outcome);
+        let Some(mut session) = self.servers.get(number).map(|server| server.session) else { return };
+        let step = self.answer_request(number, &mut session, &request);
+        self.settle(number, session, step);
     }
 
-    fn answer_request(&mut self, number: usize, transfer: Transfer, request: &Request) -> Outcome {
+    fn answer_request(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
         let [command, ..] = *request;
-        // In a block of a download the first byte is a sequence number and not a command.
-        if let Transfer::BlockDownload(download) = transfer
-            && download.is_in_block()
-        {
-            return self.block_download_segment(number, download, request);
+        if command == ABORT {
+            return Ok(Next::End);
         }
+        let Session { item, transfer, .. } = session;
         match (command & COMMAND, transfer) {
-            (0x20, _) => self.begin_download(number, request),
-            (0x40, _) => self.begin_upload(number, request),
-            (0x00, Transfer::Download(download)) => self.download_segment(number, download, request),
-            (0x60, Transfer::Upload(upload)) => self.upload_segment(number, upload, command),
+            // In a block of a download the first byte is a sequence number and not a command.
+            (_, Transfer::BlockDownload(download)) if download.is_in_block() => {
+                self.block_download_segment(number, item, download, request)
+            }
+            (0x00, Transfer::Download { toggle }) => self.download_segment(number, item, toggle, request),
+            (0x60, Transfer::Upload { toggle }) => self.upload_segment(number, item, toggle, command),
             (0xA0, Transfer::BlockUpload(upload)) if command & 3 != 0 => {
-                self.block_upload_request(number, upload, request)
+                self.block_upload_request(number, item, upload, request)
             }
-            (0xA0, _) if command & 3 == 0 => self.begin_block_upload(number, request),
             (0xC0, Transfer::BlockDownload(download)) if command & 1 == 1 => {
-                self.end_block_download(number, download, request)
+                self.end_block_download(number, item, download, request)
             }
-            (0xC0, _) if command & 1 == 0 => self.begin_block_download(number, request),
             _ => {
-                let (index, sub_index) = place_of(request);
-                Err(Refusal { code: AbortCode::UNKNOWN_COMMAND, index, sub_index })
+                (item.index, item.sub_index) = place_of(request);
+                self.begin_transfer(number, session, request)
             }
         }
     }
 
-    /// Goes on with what a request has led to: another transfer or none, or an abort message.
-    fn settle(&mut self, number: usize, outcome: Outcome) {
-        let transfer = match outcome {
-            Ok(transfer) => transfer,
-            Err(refusal) => {
-                self.refuse(number, refusal);
-                Transfer::None
-            }
-        };
-        let now = self.now;
+    /// A request that does not belong to a running transfer: it begins one, and ends the one that runs without a word.
+    fn begin_transfer(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
+        let [command, ..] = *request;
+        match command & COMMAND {
+            0x20 => self.begin_download(number, session, request),
+            0x40 => self.begin_upload(number, session),
+            0xA0 if command & 3 == 0 => self.begin_block_upload(number, session, request),
+            0xC0 if command & 1 == 0 => self.begin_block_download(number, session, request),
+            _ => Err(AbortCode::UNKNOWN_COMMAND),
+        }
+    }
+
+    /// Goes on with what a request has led to: the transfer goes on or ends, or is aborted.
+    fn settle(&mut self, number: usize, mut session: Session, step: Step) {
+        if let Err(code) = step {
+            let Item { index, sub_index, .. } = session.item;
+            let code = self.app.abort_code(code, index, sub_index);
+            self.answer_about(number, ABORT, &session.item, code.0.to_le_bytes());
+        }
+        if step == Ok(Next::Request) {
+            session.time_out = Timer::after(self.now, TIME_OUT);
+        } else {
+            session = Session::NONE;
+        }
         if let Some(server) = self.servers.get_mut(number) {
-            server.transfer = transfer;
-            server.time_out = match transfer {
-                Transfer::None => Timer::OFF,
-                _ => Timer::after(now, TIME_OUT),
-            };
+            server.session = session;
         }
-    }
-
-    fn refuse(&mut self, number: usize, refusal: Refusal) {
-        let Refusal { code, index, sub_index } = refusal;
-        let code = self.app.abort_code(code, index, sub_index);
-        self.respond(number, message(ABORT, index, sub_index, code.0.to_le_bytes()));
     }
 
     fn respond(&mut self, number: usize, data: Request) {
         if let Some((_, response)) = self.servers.get(number).and_then(|server| server.can_ids) {
-            self.core.queue.push(Frame::new(response, &data));
+            self.core.queue.send(response, &data);
         }
+    }
+
+    /// Answers with a message that names the value and holds four more bytes.
+    #[inline(never)]
+    fn answer_about(&mut self, number: usize, command: u8, item: &Item, data: [u8; 4]) {
+        let [low, high] = item.index.0.to_le_bytes();
+        let [a, b, c, d] = data;
+        self.respond(number, [command, low, high, item.sub_index.0, a, b, c, d]);
     }
 
     /// Sends what is left of blocks, and ends transfers whose client is silent.
     pub(crate) fn poll_servers(&mut self) {
         for number in 0..self.servers.len() {
-            let Some(server) = self.servers.get(number).copied() else { continue };
-            let index_of = |transfer: Transfer| match transfer {
-                Transfer::None => None,
-                Transfer::Upload(upload) => Some(upload.place()),
-                Transfer::Download(download) => Some(download.place()),
-                Transfer::BlockUpload(upload) => Some(upload.place()),
-                Transfer::BlockDownload(download) => Some(download.place()),
-            };
-            if server.time_out.is_due(self.now) {
-                if let Some((index, sub_index)) = index_of(server.transfer) {
-                    self.settle(number, Err(Refusal { code: AbortCode::TIME_OUT, index, sub_index }));
-                }
-            } else if let Transfer::BlockUpload(upload) = server.transfer
-                && upload.is_sending()
-            {
-                let outcome = self.send_block(number, upload);
-                self.settle(number, outcome);
+            let Some(server) = self.servers.get(number) else { continue };
+            let is_late = server.session.time_out.is_due(self.now);
+            if !is_late && !server.session.is_sending() {
+                continue;
             }
+            let mut session = server.session;
+            let step = match &mut session.transfer {
+                Transfer::BlockUpload(upload) if !is_late => self.send_block(number, &session.item, upload),
+                _ => Err(AbortCode::TIME_OUT),
+            };
+            self.settle(number, session, step);
         }
     }
 
@@ -262,21 +286,8 @@ impl Context<'_> {
     pub(crate) fn stop_transfers(&mut self) {
         debug_assert_eq!(self.core.state, NmtState::Stopped);
         for server in self.servers.iter_mut() {
-            server.transfer = Transfer::None;
-            server.time_out = Timer::OFF;
+            server.session = Session::NONE;
         }
-    }
-
-    /// Where in the buffers the part of a server lies: all parts are equal.
-    fn share(&self, number: usize) -> Range<usize> {
-        let size = self.buffers.len().checked_div(self.servers.len()).unwrap_or(0);
-        number * size..(number + 1) * size
-    }
-
-    /// The part of the buffers that belongs to a server.
-    fn buffer(&mut self, number: usize) -> &mut [u8] {
-        let share = self.share(number);
-        self.buffers.get_mut(share).unwrap_or_default()
     }
 }
 
