@@ -11,7 +11,7 @@
 //! | `SocketCan`: an interface of the Linux kernel, with the feature `socketcan` | `socketcan:can0` | yes |
 //!
 //! [`open`] makes a bus of an [`Address`]. Around any bus go decorators: [`Trace`], [`Loss`], [`Duplication`],
-//! [`Delay`] and [`BusOff`].
+//! [`Delay`] and [`BusOff`]. An SDO client is in [`sdo`].
 //!
 //! The crate prints nothing. What a person should hear of comes as an [`Event`].
 //!
@@ -44,6 +44,7 @@ mod hub;
 mod in_process;
 mod open;
 mod queue;
+pub mod sdo;
 mod slcan;
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 mod socketcan;
