@@ -28,6 +28,11 @@ pub(crate) enum Command {
     Show(ShowArguments),
     /// Check parameter files of devices
     Config(ConfigArguments),
+    /// Generate the object dictionary of a device in Rust
+    ///
+    /// The same as `edskit_codegen::compile` in a build script, with one file as its result. What an EDS cannot say stands
+    /// in a side-file beside it (Device.toml for Device.eds); docs/generating.md describes both.
+    Generate(GenerateArguments),
     /// Run the device that a file describes as a live node
     Run(RunArguments),
     /// Say what rules report, why, and what to write instead
@@ -249,6 +254,25 @@ pub(crate) enum ConfigFormat {
 }
 
 #[derive(Args, Debug)]
+pub(crate) struct GenerateArguments {
+    /// An EDS or DCF
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// The folder that the code is written to; it is made where there is none
+    #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) output: PathBuf,
+    /// What the code is called, the file without .rs and the module in lower case; the EDS's own name if not given
+    #[arg(long, value_parser = parse_file_stem)]
+    pub(crate) name: Option<String>,
+    /// The side-file, instead of the one beside the EDS
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) side_file: Option<PathBuf>,
+    /// The path of the crate edskit-runtime in the generated code
+    #[arg(long, value_name = "PATH", default_value = "::edskit_runtime")]
+    pub(crate) runtime: String,
+}
+
+#[derive(Args, Debug)]
 pub(crate) struct RunArguments {
     /// An EDS or DCF
     #[arg(value_hint = ValueHint::FilePath)]
@@ -304,6 +328,11 @@ fn parse_node_id(text: &str) -> Result<NodeId, String> {
     let number = edskit_model::Number::parse(text.as_bytes()).map_err(|error| error.to_string())?;
     let node_id = number.to::<u8>().and_then(|value| NodeId::new(value).ok());
     node_id.ok_or_else(|| "a node-ID is 1..127".to_owned())
+}
+
+fn parse_file_stem(text: &str) -> Result<String, String> {
+    let is_name = !text.is_empty() && !text.contains(['/', '\\']);
+    if is_name { Ok(text.to_owned()) } else { Err("a name without a folder is expected".to_owned()) }
 }
 
 fn parse_place(text: &str) -> Result<Place, String> {

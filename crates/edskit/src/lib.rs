@@ -4,10 +4,12 @@
 
 mod cli;
 mod config;
+mod device_file;
 mod difference;
 mod explain;
 mod files;
 mod fmt;
+mod generate;
 mod generated;
 mod lint;
 mod positions;
@@ -36,6 +38,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams)
         cli::Command::Fmt(arguments) => fmt::run(&arguments, streams),
         cli::Command::Show(arguments) => show::run(&arguments, streams),
         cli::Command::Config(arguments) => config::run(&arguments, streams),
+        cli::Command::Generate(arguments) => generate::run(&arguments, streams),
         cli::Command::Run(arguments) => run::run(&arguments, streams),
         cli::Command::Explain(arguments) => explain::run(&arguments, streams),
         cli::Command::Completions { shell } => generated::completions(shell, streams),

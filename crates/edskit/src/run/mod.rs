@@ -6,10 +6,11 @@ mod log;
 mod memory;
 
 use crate::cli::RunArguments;
+use crate::device_file::DeviceFile;
 use crate::{Exit, Streams};
 use device::LoadedDevice;
 use dictionary::LoadedDictionary;
-use edskit_codegen::{Layout, SideFile, lay_out};
+use edskit_codegen::{Layout, Problem, SideFile, lay_out};
 use edskit_host::{Address, Bus, BusError, Hub, HubOptions, SendError, open};
 use edskit_lint::FileKind;
 use edskit_model::{Datasheet, Document, Field};
@@ -17,7 +18,6 @@ use edskit_runtime::{Frame, Node, Settings};
 use edskit_types::NodeId;
 use log::Log;
 use memory::VolatileStorage;
-use std::fs;
 use std::io;
 use std::net::SocketAddr;
 use std::path::Path;
@@ -59,21 +59,21 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     serve(node, &mut *bus, &mut log, &stop, streams)
 }
 
-/// Reads a file and lays its dictionary out; with the node-ID that a DCF commissions.
+/// Reads a file with its side-file and lays its dictionary out; with the node-ID that a DCF commissions.
 fn load(path: &Path) -> Result<(Layout, Option<NodeId>), Vec<String>> {
-    let name = path.display();
-    let bytes = fs::read(path).map_err(|error| vec![format!("{name}: {error}")])?;
-    let sheet = Datasheet::new(Document::from_vec(bytes));
-    let layout = lay_out(&sheet, &SideFile::default()).map_err(|problems| {
-        problems
-            .iter()
-            .map(|problem| format!("{name}:{}: {}", problem.position, problem.message))
-            .collect::<Vec<_>>()
-    })?;
+    let DeviceFile { eds, side_file, naming } =
+        DeviceFile::read(path, None).map_err(|reason| vec![reason])?;
+    let name = &naming.eds;
+    let line = |problem: &Problem| problem.line(name, &naming.side_file).to_string();
+    let side_file = side_file.as_deref().map_or(Ok(SideFile::default()), SideFile::parse);
+    let side_file = side_file.map_err(|problem| vec![line(&problem)])?;
+    let sheet = Datasheet::new(Document::from_vec(eds));
+    let layout =
+        lay_out(&sheet, &side_file).map_err(|problems| problems.iter().map(line).collect::<Vec<_>>())?;
     if layout.entries.is_empty() {
         return Err(vec![format!("{name}: the file describes no object, so there is nothing to run")]);
     }
-    let is_dcf = FileKind::of(&name.to_string()) == FileKind::Dcf;
+    let is_dcf = FileKind::of(name) == FileKind::Dcf;
     let commissioning = sheet.commissioning().filter(|_| is_dcf);
     let node_id = commissioning.and_then(|section| section.node_id()).and_then(Field::known);
     Ok((layout, node_id.and_then(|node_id| NodeId::new(node_id).ok())))
