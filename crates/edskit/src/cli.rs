@@ -1,5 +1,12 @@
 //! The command line's grammar.
 
+mod live;
+
+pub(crate) use live::{
+    BusArguments, ConnectionArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, SdoArguments,
+    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
+};
+
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
@@ -35,6 +42,17 @@ pub(crate) enum Command {
     Generate(GenerateArguments),
     /// Run the device that a file describes as a live node
     Run(RunArguments),
+    /// Start a bus that devices and tools attach to over TCP
+    Bus(BusArguments),
+    /// Print what goes over a bus, decoded
+    ///
+    /// Time stamps are UTC. Without an EDS, services are told apart by the pre-defined connection set of CiA 301; with one,
+    /// objects have their names, values their types, and PDOs the identifiers and mappings of the file.
+    Monitor(MonitorArguments),
+    /// Send an NMT command: start, stop or reset nodes
+    Nmt(NmtArguments),
+    /// Read or write the object dictionary of a node
+    Sdo(SdoArguments),
     /// Say what rules report, why, and what to write instead
     Explain(ExplainArguments),
     /// Print a completion script for a shell
@@ -335,7 +353,7 @@ fn parse_file_stem(text: &str) -> Result<String, String> {
     if is_name { Ok(text.to_owned()) } else { Err("a name without a folder is expected".to_owned()) }
 }
 
-fn parse_place(text: &str) -> Result<Place, String> {
+pub(crate) fn parse_place(text: &str) -> Result<Place, String> {
     let hex =
         |digits: &str| digits.strip_prefix("0x").or(digits.strip_prefix("0X")).unwrap_or(digits).to_owned();
     let (index, sub_index) = match text.split_once([':', '.']) {

@@ -7,25 +7,19 @@ mod memory;
 
 use crate::cli::RunArguments;
 use crate::device_file::DeviceFile;
+use crate::live::{Log, PATIENCE, Stop, start_hub};
 use crate::{Exit, Streams};
 use device::LoadedDevice;
 use dictionary::LoadedDictionary;
 use edskit_codegen::{Layout, Problem, SideFile, lay_out};
-use edskit_host::{Address, Bus, BusError, Hub, HubOptions, SendError, open};
+use edskit_host::{Address, Bus, BusError, Hub, SendError, open};
 use edskit_lint::FileKind;
 use edskit_model::{Datasheet, Document, Field};
 use edskit_runtime::{Frame, Node, Settings};
 use edskit_types::NodeId;
-use log::Log;
 use memory::VolatileStorage;
 use std::io;
-use std::net::SocketAddr;
 use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-/// How often the loop looks whether it has been asked to end, in microseconds.
-const PATIENCE: u64 = 200_000;
 
 pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
     let (layout, commissioned) = match load(&arguments.file) {
@@ -38,25 +32,26 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
         }
     };
     let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
-    let mut log = Log::new(arguments.log);
+    let log = Log::new(arguments.log);
     // The hub lives as long as the node.
-    let (mut bus, _hub) = match connect(arguments, &mut log, streams) {
+    let (mut bus, _hub) = match connect(arguments, &log, streams) {
         Ok(connected) => connected,
         Err(reason) => {
             streams.complain(format_args!("{reason}"));
             return Ok(Exit::Failed);
         }
     };
-    let stop = Arc::new(AtomicBool::new(false));
-    let asked = Arc::clone(&stop);
-    if let Err(error) = ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed)) {
-        streams.complain(format_args!("Ctrl-C cannot be caught: {error}"));
-        return Ok(Exit::Failed);
-    }
-    log.node(streams, node_id, layout.product.as_deref())?;
+    let stop = match Stop::on_ctrl_c() {
+        Ok(stop) => stop,
+        Err(reason) => {
+            streams.complain(format_args!("{reason}"));
+            return Ok(Exit::Failed);
+        }
+    };
+    log::node(&log, streams, node_id, layout.product.as_deref())?;
     let settings = Settings { node_id: Some(node_id), ..Settings::default() };
     let node = Node::new(LoadedDictionary::new(layout), settings, VolatileStorage::default());
-    serve(node, &mut *bus, &mut log, &stop, streams)
+    serve(node, &mut *bus, &log, &stop, streams)
 }
 
 /// Reads a file with its side-file and lays its dictionary out; with the node-ID that a DCF commissions.
@@ -82,39 +77,26 @@ fn load(path: &Path) -> Result<(Layout, Option<NodeId>), Vec<String>> {
 /// A bus, and the hub where this process has started one for it.
 type Connected = (Box<dyn Bus>, Option<Hub>);
 
-fn connect(arguments: &RunArguments, log: &mut Log, streams: &mut Streams) -> Result<Connected, String> {
+fn connect(arguments: &RunArguments, log: &Log, streams: &mut Streams) -> Result<Connected, String> {
     if arguments.bus != Address::Hub {
         let bus = open(&arguments.bus).map_err(|error| error.to_string())?;
         return Ok((bus, None));
     }
-    let hub = Hub::start(&hub_options(arguments.listen)).map_err(|error| error.to_string())?;
-    let addresses = [("socketcand", hub.socketcand_address()), ("slcan", hub.slcan_address())];
-    for (protocol, address) in addresses {
-        if let Some(address) = address {
-            log.listening(streams, protocol, address).map_err(|error| error.to_string())?;
-        }
-    }
+    let hub = start_hub(arguments.listen, log, streams)?;
     Ok((Box::new(hub.attach()), Some(hub)))
-}
-
-/// The hub's ports: the given one for socketcand and the next one for SLCAN; port 0 takes free ones.
-fn hub_options(listen: Option<SocketAddr>) -> HubOptions {
-    let Some(listen) = listen else { return HubOptions::default() };
-    let next = if listen.port() == 0 { 0 } else { listen.port().saturating_add(1) };
-    HubOptions { socketcand: Some(listen), slcan: Some(SocketAddr::new(listen.ip(), next)) }
 }
 
 fn serve(
     mut node: Node<LoadedDictionary, VolatileStorage>,
     bus: &mut dyn Bus,
-    log: &mut Log,
-    stop: &AtomicBool,
+    log: &Log,
+    stop: &Stop,
     streams: &mut Streams,
 ) -> io::Result<Exit> {
     let mut device = LoadedDevice::default();
     // A frame that the bus has not taken yet.
     let mut waiting: Option<Frame> = None;
-    while !stop.load(Ordering::Relaxed) {
+    while !stop.is_asked() {
         match step(&mut node, &mut device, bus, &mut waiting) {
             Ok(()) => {}
             Err(error) => {
@@ -126,7 +108,7 @@ fn serve(
             log.bus(streams, &event)?;
         }
         for event in device.take_events() {
-            log.device(streams, &event)?;
+            log::device(log, streams, &event)?;
         }
     }
     Ok(Exit::Clean)
@@ -146,8 +128,7 @@ fn step(
     node.poll(bus.now(), device);
     send_all(node, bus, waiting);
     let now = bus.now();
-    let patience = edskit_runtime::Microseconds(PATIENCE);
-    bus.wait(node.next_deadline(now).min(now + patience))
+    bus.wait(node.next_deadline(now).min(now + PATIENCE))
 }
 
 fn send_all(
