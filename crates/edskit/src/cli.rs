@@ -3,8 +3,8 @@
 mod live;
 
 pub(crate) use live::{
-    BusArguments, ConnectionArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, SdoArguments,
-    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
+    BusArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, SdoArguments, SdoCommand,
+    SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
 };
 
 use clap::builder::NonEmptyStringValueParser;

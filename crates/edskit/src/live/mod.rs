@@ -25,12 +25,15 @@ pub(crate) fn attach(address: &Address) -> Result<Box<dyn Bus + Send>, String> {
              `edskit run` with socketcand:127.0.0.1:29536"
             .to_owned());
     }
+    open_or_hint(address)
+}
+
+/// Opens a bus; where that fails, the message says what may help.
+pub(crate) fn open_or_hint(address: &Address) -> Result<Box<dyn Bus + Send>, String> {
     open(address).map_err(|error| match address {
-        Address::Socketcand { .. } | Address::Slcan { .. } => {
-            format!(
-                "{error}; `edskit bus` starts one, `edskit run FILE` one with a device, --bus names another"
-            )
-        }
+        Address::Socketcand { .. } | Address::Slcan { .. } => format!(
+            "{error}\n  `edskit bus` starts a hub, `edskit run FILE` one with a device on it; --bus names another bus."
+        ),
         _ => error.to_string(),
     })
 }

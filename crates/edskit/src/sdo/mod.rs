@@ -13,7 +13,7 @@ use crate::{Exit, Streams};
 use edskit_host::sdo::{SdoClient, SdoError};
 use edskit_types::{DataType, Index, SubIndex};
 use reasons::{Request, reasons};
-use serde_json::json;
+use serde::Serialize;
 use std::fs;
 use std::io;
 
@@ -89,6 +89,20 @@ impl<'a> Target<'a> {
     }
 }
 
+/// What was read, as JSON.
+#[derive(Serialize)]
+struct Report<'a> {
+    node_id: u8,
+    index: u16,
+    sub_index: u8,
+    name: Option<&'a str>,
+    data_type: Option<&'static str>,
+    /// Hexadecimal digits, as they come.
+    bytes: String,
+    /// By the data type, where it is known.
+    value: Option<serde_json::Value>,
+}
+
 fn read(arguments: &SdoReadArguments, streams: &mut Streams) -> io::Result<Exit> {
     let target = Target::find(&arguments.place).map_err(io::Error::other)?;
     let mut bus = attach(&arguments.place.connection.bus).map_err(io::Error::other)?;
@@ -113,15 +127,15 @@ fn read(arguments: &SdoReadArguments, streams: &mut Streams) -> io::Result<Exit>
                 writeln!(streams.stdout, "{}: {shown}", target.heading())?;
             }
             ReadFormat::Json => {
-                let report = json!({
-                    "node_id": arguments.place.node.get(),
-                    "index": target.index.0,
-                    "sub_index": target.sub_index.0,
-                    "name": target.name,
-                    "data_type": target.data_type.map(DataType::name),
-                    "bytes": value::digits(&bytes),
-                    "value": target.data_type.map(|kind| value::json(kind, &bytes)),
-                });
+                let report = Report {
+                    node_id: arguments.place.node.get(),
+                    index: target.index.0,
+                    sub_index: target.sub_index.0,
+                    name: target.name.as_deref(),
+                    data_type: target.data_type.map(DataType::name),
+                    bytes: value::digits(&bytes),
+                    value: target.data_type.map(|kind| value::json(kind, &bytes)),
+                };
                 serde_json::to_writer_pretty(&mut streams.stdout, &report)?;
                 writeln!(streams.stdout)?;
             }
