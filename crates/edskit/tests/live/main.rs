@@ -103,13 +103,14 @@ fn every_kind_of_transfer_goes_through() {
 fn what_goes_wrong_is_explained() {
     let (_node, bus) = pump();
     let mut all = String::new();
-    let cases: [&[&str]; 17] = [
+    let cases: [&[&str]; 18] = [
         &["write", "5", "1000", "5", "--eds", PUMP],
         &["write", "5", "1017", "70000", "--eds", PUMP],
         &["write", "5", "1017", "5", "--type", "u32", "--eds", PUMP],
         &["write", "5", "1017", "5", "--type", "u32"],
         &["write", "5", "1017", "5"],
-        &["write", "5", "Step", "200", "--eds", PUMP],
+        &["write", "5", "Gain", "11", "--eds", PUMP],
+        &["write", "5", "Set speed", "4000", "--eds", PUMP],
         &["write", "5", "1A00:1", "0x20000010", "--eds", PUMP],
         &["write", "5", "1010:1", "1", "--eds", PUMP],
         &["read", "5", "5000"],
