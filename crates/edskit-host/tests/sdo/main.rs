@@ -1,6 +1,7 @@
 //! The SDO client against the SDO server of `edskit-runtime`, over a bus in virtual time, and against nonsense.
 
 mod hostile;
+mod lossy;
 mod node;
 
 use edskit_host::sdo::{SdoClient, SdoError, SdoMode};
