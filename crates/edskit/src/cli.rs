@@ -16,7 +16,7 @@ use edskit_types::NodeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// Lint, format and read CANopen EDS and DCF files (CiA 306).
+/// Lint, format, read and run CANopen EDS and DCF files (CiA 306), and talk to devices on a bus (CiA 301).
 #[derive(Parser, Debug)]
 #[command(name = "edskit", version, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 clean, 1 findings, 2 something could not be done.")]

@@ -5,10 +5,10 @@ mod network;
 mod render;
 
 use crate::cli::{LogFormat, MonitorArguments};
-use crate::live::{PATIENCE, Stop, TraceFile, open_or_hint};
+use crate::live::{Log, PATIENCE, Stop, TraceFile, open_or_hint, start_hub};
 use crate::{Exit, Streams};
 use decode::Decoder;
-use edskit_host::{Bus, Event, Received, Trace};
+use edskit_host::{Address, Bus, Event, Received, Trace};
 use network::Network;
 use render::Report;
 use std::io;
@@ -17,7 +17,13 @@ pub(crate) fn run(arguments: &MonitorArguments, streams: &mut Streams) -> io::Re
     let network = Network::read(&arguments.devices).map_err(io::Error::other)?;
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
     let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
-    let bus = open_or_hint(&arguments.bus).map_err(io::Error::other)?;
+    // A hub lives as long as its monitor.
+    let (bus, _hub): (Box<dyn Bus + Send>, _) = if arguments.bus == Address::Hub {
+        let hub = start_hub(None, &Log::new(arguments.log), streams).map_err(io::Error::other)?;
+        (Box::new(hub.attach()), Some(hub))
+    } else {
+        (open_or_hint(&arguments.bus).map_err(io::Error::other)?, None)
+    };
     let mut decoder = Decoder::new(network);
     match record {
         Some(record) => watch(&mut Trace::new(bus, record), &mut decoder, &stop, arguments.log, streams)?,

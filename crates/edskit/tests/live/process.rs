@@ -1,6 +1,6 @@
 //! A command in a process of its own.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
@@ -111,6 +111,6 @@ impl Drop for Process {
         // It may have ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
-        let _ = self.child.stdout.take().map(|mut rest| rest.read_to_end(&mut Vec::new()));
+        let _ = self.reader.take().map(JoinHandle::join);
     }
 }
