@@ -16,6 +16,7 @@
 //! | for build scripts | [`compile`], [`Config`] |
 //! | the same without files | [`generate`], [`parse`], [`render`] |
 //! | the dictionary as data | [`Layout`], [`lay_out`] |
+//! | a node without compiling | [`LoadedDictionary`] |
 //! | what an EDS cannot say | [`SideFile`] |
 //! | what stands against it | [`Problem`] |
 
@@ -23,6 +24,7 @@ mod compile;
 mod generate;
 mod identifier;
 mod layout;
+mod loaded;
 mod problem;
 mod render;
 mod side_file;
@@ -32,6 +34,7 @@ pub use compile::{Config, compile, write_if_changed};
 pub use generate::{Generated, generate, parse};
 pub use identifier::module_name;
 pub use layout::{Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out};
+pub use loaded::LoadedDictionary;
 pub use problem::{InputFile, Problem};
 pub use render::{Naming, render};
 pub use side_file::SideFile;

@@ -13,6 +13,8 @@
 //! [`open`] makes a bus of an [`Address`]. Around any bus go decorators: [`Trace`], [`Loss`], [`Duplication`],
 //! [`Delay`] and [`BusOff`]. An SDO client is in [`sdo`].
 //!
+//! A [`Station`] is a node on a bus; [`MemoryDevice`] and [`MemoryStorage`] are a device that has nothing behind it.
+//!
 //! The crate prints nothing. What a person should hear of comes as an [`Event`].
 //!
 //! ```
@@ -39,6 +41,7 @@ mod bus;
 mod client;
 mod clock;
 mod decorator;
+mod device;
 mod error;
 mod hub;
 mod in_process;
@@ -55,6 +58,7 @@ pub use bus::{Bus, Event, Received};
 pub use client::Client;
 pub use clock::system_now;
 pub use decorator::{BusOff, BusOffSwitch, Candump, Delay, Duplication, Loss, Pcap, Recorder, Trace};
+pub use device::{DeviceEvent, MemoryDevice, MemoryStorage, Station};
 pub use error::{BusError, SendError};
 pub use hub::{Hub, HubOptions, HubParticipant};
 pub use in_process::{Actor, Participant, VirtualBus, frame_bits, simulate};

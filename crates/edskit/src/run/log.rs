@@ -1,8 +1,8 @@
 //! What a running node tells.
 
-use super::device::DeviceEvent;
 use crate::Streams;
 use crate::live::Log;
+use edskit_host::DeviceEvent;
 use edskit_types::NodeId;
 use serde::Serialize;
 use std::io;

@@ -1,23 +1,17 @@
 //! `edskit run`: any EDS or DCF as a live node.
 
-mod device;
-mod dictionary;
 mod log;
-mod memory;
 
 use crate::cli::RunArguments;
 use crate::device_file::DeviceFile;
 use crate::live::{Log, PATIENCE, Stop, start_hub};
 use crate::{Exit, Streams};
-use device::LoadedDevice;
-use dictionary::LoadedDictionary;
-use edskit_codegen::{Layout, Problem, SideFile, lay_out};
-use edskit_host::{Address, Bus, BusError, Hub, SendError, open};
+use edskit_codegen::{Layout, LoadedDictionary, Problem, SideFile, lay_out};
+use edskit_host::{Address, Bus, BusError, Hub, MemoryDevice, MemoryStorage, Station, open};
 use edskit_lint::FileKind;
 use edskit_model::{Datasheet, Document, Field};
-use edskit_runtime::{Frame, Node, Settings};
+use edskit_runtime::{Node, Settings};
 use edskit_types::NodeId;
-use memory::VolatileStorage;
 use std::io;
 use std::path::Path;
 
@@ -34,7 +28,7 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
     let log = Log::new(arguments.log);
     // The hub lives as long as the node.
-    let (mut bus, _hub) = match connect(arguments, &log, streams) {
+    let (bus, _hub) = match connect(arguments, &log, streams) {
         Ok(connected) => connected,
         Err(reason) => {
             streams.complain(format_args!("{reason}"));
@@ -50,8 +44,30 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     };
     log::node(&log, streams, node_id, layout.product.as_deref())?;
     let settings = Settings { node_id: Some(node_id), ..Settings::default() };
-    let node = Node::new(LoadedDictionary::new(layout), settings, VolatileStorage::default());
-    serve(node, &mut *bus, &log, &stop, streams)
+    let node = Node::new(LoadedDictionary::new(&layout), settings, MemoryStorage::default());
+    let mut station = Station::new(node, MemoryDevice::default(), bus);
+    while !stop.is_asked() {
+        let deadline = match station.round() {
+            Ok(deadline) => deadline,
+            Err(error) => return lost(&error, streams),
+        };
+        while let Some(event) = station.bus.event() {
+            log.bus(streams, &event)?;
+        }
+        for event in station.device.take_events() {
+            log::device(&log, streams, &event)?;
+        }
+        let patience = station.bus.now() + PATIENCE;
+        if let Err(error) = station.bus.wait(deadline.min(patience)) {
+            return lost(&error, streams);
+        }
+    }
+    Ok(Exit::Clean)
+}
+
+fn lost(error: &BusError, streams: &mut Streams) -> io::Result<Exit> {
+    streams.complain(format_args!("{error}"));
+    Ok(Exit::Failed)
 }
 
 /// Reads a file with its side-file and lays its dictionary out; with the node-ID that a DCF commissions.
@@ -84,67 +100,4 @@ fn connect(arguments: &RunArguments, log: &Log, streams: &mut Streams) -> Result
     }
     let hub = start_hub(arguments.listen, log, streams)?;
     Ok((Box::new(hub.attach()), Some(hub)))
-}
-
-fn serve(
-    mut node: Node<LoadedDictionary, VolatileStorage>,
-    bus: &mut dyn Bus,
-    log: &Log,
-    stop: &Stop,
-    streams: &mut Streams,
-) -> io::Result<Exit> {
-    let mut device = LoadedDevice::default();
-    // A frame that the bus has not taken yet.
-    let mut waiting: Option<Frame> = None;
-    while !stop.is_asked() {
-        match step(&mut node, &mut device, bus, &mut waiting) {
-            Ok(()) => {}
-            Err(error) => {
-                streams.complain(format_args!("{error}"));
-                return Ok(Exit::Failed);
-            }
-        }
-        while let Some(event) = bus.event() {
-            log.bus(streams, &event)?;
-        }
-        for event in device.take_events() {
-            log::device(log, streams, &event)?;
-        }
-    }
-    Ok(Exit::Clean)
-}
-
-/// One round: takes what has arrived, sends what is due, and waits for more.
-fn step(
-    node: &mut Node<LoadedDictionary, VolatileStorage>,
-    device: &mut LoadedDevice,
-    bus: &mut dyn Bus,
-    waiting: &mut Option<Frame>,
-) -> Result<(), BusError> {
-    while let Some(received) = bus.receive()? {
-        node.receive(bus.now(), &received.frame, device);
-        send_all(node, bus, waiting);
-    }
-    node.poll(bus.now(), device);
-    send_all(node, bus, waiting);
-    let now = bus.now();
-    bus.wait(node.next_deadline(now).min(now + PATIENCE))
-}
-
-fn send_all(
-    node: &mut Node<LoadedDictionary, VolatileStorage>,
-    bus: &mut dyn Bus,
-    waiting: &mut Option<Frame>,
-) {
-    while let Some(frame) = waiting.take().or_else(|| node.transmit()) {
-        match bus.send(&frame) {
-            Ok(()) => {}
-            Err(SendError::Full) => {
-                *waiting = Some(frame);
-                return;
-            }
-            // Nobody can be told over a bus that is away; the frame is gone as on a real one.
-            Err(_) => {}
-        }
-    }
 }

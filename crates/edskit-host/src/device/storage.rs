@@ -4,13 +4,13 @@ use edskit_runtime::{Record, Storage, StorageError};
 use std::collections::BTreeMap;
 
 /// Records in memory: saved parameters survive a reset of the node, not the end of the program.
-#[derive(Default)]
-pub(super) struct VolatileStorage {
+#[derive(Clone, Default, Debug)]
+pub struct MemoryStorage {
     records: BTreeMap<Record, Vec<u8>>,
     begun: Vec<u8>,
 }
 
-impl Storage for VolatileStorage {
+impl Storage for MemoryStorage {
     fn read(&mut self, record: Record, offset: u32, buffer: &mut [u8]) -> Result<usize, StorageError> {
         let bytes = self.records.get(&record).and_then(|bytes| bytes.get(offset as usize..));
         let bytes = bytes.unwrap_or_default();

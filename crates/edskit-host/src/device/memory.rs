@@ -8,27 +8,30 @@ use std::collections::BTreeMap;
 const MOST_BYTES: usize = 1 << 20;
 
 /// Something that a person who watches the device wants to hear of.
-#[derive(Clone, Copy)]
-pub(super) enum DeviceEvent {
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum DeviceEvent {
+    /// The node is in another NMT state.
     State(NmtState),
+    /// The node has sent an EMCY message.
     Emergency(Emergency),
 }
 
-/// The device behind a node that is run from a file.
-#[derive(Default)]
-pub(super) struct LoadedDevice {
+/// A device without a process: what is written into a DOMAIN can be read again, up to 1 MiB each.
+#[derive(Clone, Default, Debug)]
+pub struct MemoryDevice {
     domains: BTreeMap<(Index, SubIndex), Vec<u8>>,
     events: Vec<DeviceEvent>,
 }
 
-impl LoadedDevice {
+impl MemoryDevice {
     /// What has happened since the last call.
-    pub(super) fn take_events(&mut self) -> Vec<DeviceEvent> {
+    #[must_use]
+    pub fn take_events(&mut self) -> Vec<DeviceEvent> {
         std::mem::take(&mut self.events)
     }
 }
 
-impl Application for LoadedDevice {
+impl Application for MemoryDevice {
     fn state_changed(&mut self, _: &mut Objects<'_>, _: NmtState, to: NmtState) {
         self.events.push(DeviceEvent::State(to));
     }

@@ -1,0 +1,68 @@
+//! A node on a bus.
+
+use crate::{Bus, BusError, SendError};
+use edskit_runtime::{Application, Dictionary, Frame, Instant, Node, Storage};
+
+/// A node with the device behind it, on a bus: what the main loop of a firmware is on a computer.
+///
+/// ```
+/// use edskit_host::{Bus, MemoryDevice, Station, VirtualBus};
+/// use edskit_runtime::{Dictionary, Instant, NoStorage, Node, Settings};
+///
+/// fn run(dictionary: impl Dictionary, bus: &VirtualBus) -> Result<(), edskit_host::BusError> {
+///     let node = Node::new(dictionary, Settings::default(), NoStorage);
+///     let mut station = Station::new(node, MemoryDevice::default(), bus.attach());
+///     while station.bus.now() < Instant(1_000_000) {
+///         let next = station.round()?;
+///         station.bus.wait(next)?;
+///     }
+///     Ok(())
+/// }
+/// ```
+#[derive(Debug)]
+pub struct Station<D, S, A, B> {
+    /// The node.
+    pub node: Node<D, S>,
+    /// The device behind it.
+    pub device: A,
+    /// Its bus.
+    pub bus: B,
+    /// A frame that the bus has not taken yet.
+    waiting: Option<Frame>,
+}
+
+impl<D: Dictionary, S: Storage, A: Application, B: Bus> Station<D, S, A, B> {
+    /// A node that has done nothing yet.
+    pub fn new(node: Node<D, S>, device: A, bus: B) -> Self {
+        Self { node, device, bus, waiting: None }
+    }
+
+    /// Takes what has arrived, sends what is due, and says when there is something to do again if nothing arrives:
+    /// until then [`Bus::wait`].
+    ///
+    /// # Errors
+    /// As [`Bus::receive`].
+    pub fn round(&mut self) -> Result<Instant, BusError> {
+        while let Some(received) = self.bus.receive()? {
+            self.node.receive(self.bus.now(), &received.frame, &mut self.device);
+            self.send_all();
+        }
+        self.node.poll(self.bus.now(), &mut self.device);
+        self.send_all();
+        Ok(self.node.next_deadline(self.bus.now()))
+    }
+
+    fn send_all(&mut self) {
+        while let Some(frame) = self.waiting.take().or_else(|| self.node.transmit()) {
+            match self.bus.send(&frame) {
+                Ok(()) => {}
+                Err(SendError::Full) => {
+                    self.waiting = Some(frame);
+                    return;
+                }
+                // Nobody can be told over a bus that is away; the frame is gone as on a real one.
+                Err(_) => {}
+            }
+        }
+    }
+}
