@@ -7,9 +7,13 @@ fn what_cannot_be_run() {
     let folder = Folder::new("run");
     let empty = folder.write("empty.eds", "[FileInfo]\n");
     let good = folder.write("good.eds", "[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n");
-    let cases: [(&str, &[&str]); 5] = [
+    let with_side_file =
+        folder.write("sided.eds", "[1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\n");
+    folder.write("sided.toml", "[unit]\n'1017' = 'ms'\n\n[capacity]\n'1017' = 'long'\n");
+    let cases: [(&str, &[&str]); 6] = [
         ("missing", &["nowhere.eds"]),
         ("nothing", &[&empty]),
+        ("side_file", &[&with_side_file]),
         ("bus", &[&good, "--bus", "socketcan"]),
         ("node_id", &[&good, "--node-id", "128"]),
         ("nobody", &[&good, "--bus", "socketcand:127.0.0.1:1/can0"]),

@@ -111,7 +111,7 @@ impl Config {
         };
         let path = folder.join(self.file_name(eds));
         match write_if_changed(&path, &generated.code) {
-            Ok(()) => Ok(()),
+            Ok(_) => Ok(()),
             Err(error) => say(cargo, "error", &format!("{}: {error}", path.display())),
         }
     }
@@ -178,18 +178,20 @@ fn say(cargo: &mut dyn Write, key: &str, value: &str) -> io::Result<()> {
     writeln!(cargo, "cargo::{key}={value}")
 }
 
-/// Writes a file unless it holds that text already: what depends on it is then not built again.
+/// Writes a file unless it holds that text already: what depends on it is then not built again. Says whether it was
+/// written.
 ///
 /// # Errors
 /// Where the file or its folder cannot be written.
-pub fn write_if_changed(path: &Path, text: &str) -> io::Result<()> {
+pub fn write_if_changed(path: &Path, text: &str) -> io::Result<bool> {
     if fs::read(path).is_ok_and(|present| present == text.as_bytes()) {
-        return Ok(());
+        return Ok(false);
     }
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
     }
-    fs::write(path, text)
+    fs::write(path, text)?;
+    Ok(true)
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@
 //! | speed of the bus | [`Bitrate`] |
 //! | state of a device, and what changes it | [`NmtState`], [`NmtCommand`] |
 //! | why an SDO transfer was refused | [`AbortCode`] |
+//! | what an emergency message says | [`EmergencyCode`], [`ErrorRegister`] |
 //!
 //! # Example
 //!
@@ -46,6 +47,7 @@ mod access_type;
 mod bitrate;
 mod cob_id;
 mod data_type;
+mod emergency_code;
 mod identifiers;
 mod index;
 mod mapping_entry;
@@ -59,6 +61,7 @@ pub use access_type::AccessType;
 pub use bitrate::Bitrate;
 pub use cob_id::{CanId, CobId};
 pub use data_type::{DataType, DataTypeKind};
+pub use emergency_code::{EmergencyCode, ErrorRegister};
 pub use identifiers::{
     Claim, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole, conflicts,
 };

@@ -1,5 +1,12 @@
 //! The command line's grammar.
 
+mod live;
+
+pub(crate) use live::{
+    BusArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, SdoArguments, SdoCommand,
+    SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
+};
+
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
@@ -9,7 +16,7 @@ use edskit_types::NodeId;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
-/// Lint, format and read CANopen EDS and DCF files (CiA 306).
+/// Lint, format, read and run CANopen EDS and DCF files (CiA 306), and talk to devices on a bus (CiA 301).
 #[derive(Parser, Debug)]
 #[command(name = "edskit", version, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 clean, 1 findings, 2 something could not be done.")]
@@ -28,8 +35,24 @@ pub(crate) enum Command {
     Show(ShowArguments),
     /// Check parameter files of devices
     Config(ConfigArguments),
+    /// Generate the object dictionary of a device in Rust
+    ///
+    /// The same as `edskit_codegen::compile` in a build script, with one file as its result. What an EDS cannot say stands
+    /// in a side-file beside it (Device.toml for Device.eds); docs/generating.md describes both.
+    Generate(GenerateArguments),
     /// Run the device that a file describes as a live node
     Run(RunArguments),
+    /// Start a bus that devices and tools attach to over TCP
+    Bus(BusArguments),
+    /// Print what goes over a bus, decoded
+    ///
+    /// Time stamps are UTC. Without an EDS, services are told apart by the pre-defined connection set of CiA 301; with one,
+    /// objects have their names, values their types, and PDOs the identifiers and mappings of the file.
+    Monitor(MonitorArguments),
+    /// Send an NMT command: start, stop or reset nodes
+    Nmt(NmtArguments),
+    /// Read or write the object dictionary of a node
+    Sdo(SdoArguments),
     /// Say what rules report, why, and what to write instead
     Explain(ExplainArguments),
     /// Print a completion script for a shell
@@ -249,6 +272,25 @@ pub(crate) enum ConfigFormat {
 }
 
 #[derive(Args, Debug)]
+pub(crate) struct GenerateArguments {
+    /// An EDS or DCF
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// The folder that the code is written to; it is made where there is none
+    #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
+    pub(crate) output: PathBuf,
+    /// What the code is called, the file without .rs and the module in lower case; the EDS's own name if not given
+    #[arg(long, value_parser = parse_file_stem)]
+    pub(crate) name: Option<String>,
+    /// The side-file, instead of the one beside the EDS
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) side_file: Option<PathBuf>,
+    /// The path of the crate edskit-runtime in the generated code
+    #[arg(long, value_name = "PATH", default_value = "::edskit_runtime")]
+    pub(crate) runtime: String,
+}
+
+#[derive(Args, Debug)]
 pub(crate) struct RunArguments {
     /// An EDS or DCF
     #[arg(value_hint = ValueHint::FilePath)]
@@ -306,7 +348,12 @@ fn parse_node_id(text: &str) -> Result<NodeId, String> {
     node_id.ok_or_else(|| "a node-ID is 1..127".to_owned())
 }
 
-fn parse_place(text: &str) -> Result<Place, String> {
+fn parse_file_stem(text: &str) -> Result<String, String> {
+    let is_name = !text.is_empty() && !text.contains(['/', '\\']);
+    if is_name { Ok(text.to_owned()) } else { Err("a name without a folder is expected".to_owned()) }
+}
+
+pub(crate) fn parse_place(text: &str) -> Result<Place, String> {
     let hex =
         |digits: &str| digits.strip_prefix("0x").or(digits.strip_prefix("0X")).unwrap_or(digits).to_owned();
     let (index, sub_index) = match text.split_once([':', '.']) {

@@ -2,9 +2,9 @@
 
 use crate::cli::Cli;
 use crate::{Exit, Streams};
-use clap::CommandFactory;
+use clap::{Command, CommandFactory};
 use clap_complete::Shell;
-use std::io;
+use std::io::{self, Write};
 
 pub(crate) fn completions(shell: Shell, streams: &mut Streams) -> io::Result<Exit> {
     let mut script = Vec::new();
@@ -18,10 +18,14 @@ pub(crate) fn completions(shell: Shell, streams: &mut Streams) -> io::Result<Exi
 pub(crate) fn man(streams: &mut Streams) -> io::Result<Exit> {
     let mut command = Cli::command();
     command.build();
-    clap_mangen::Man::new(command.clone()).render(&mut streams.stdout)?;
-    for subcommand in command.get_subcommands().filter(|subcommand| subcommand.get_name() != "help") {
-        clap_mangen::Man::new(subcommand.clone()).render(&mut streams.stdout)?;
-    }
+    pages(&command, &mut *streams.stdout)?;
     streams.stdout.flush()?;
     Ok(Exit::Clean)
+}
+
+/// The page of a command, and those of the commands below it.
+fn pages(command: &Command, out: &mut dyn Write) -> io::Result<()> {
+    clap_mangen::Man::new(command.clone()).render(out)?;
+    let below = command.get_subcommands().filter(|subcommand| subcommand.get_name() != "help");
+    below.into_iter().try_for_each(|subcommand| pages(subcommand, out))
 }

@@ -2,21 +2,29 @@
 //!
 //! This is the only crate of the desk half that opens files, knows a terminal and knows JSON.
 
+mod bus;
 mod cli;
 mod config;
+mod device_file;
 mod difference;
 mod explain;
 mod files;
 mod fmt;
+mod generate;
 mod generated;
 mod lint;
+mod live;
+mod monitor;
+mod nmt;
 mod positions;
 mod printable;
 mod profiles;
 mod run;
+mod sdo;
 mod settings;
 mod show;
 mod streams;
+mod value;
 
 pub use cli::Cli;
 pub use streams::{Exit, Streams};
@@ -36,7 +44,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: &mut Streams)
         cli::Command::Fmt(arguments) => fmt::run(&arguments, streams),
         cli::Command::Show(arguments) => show::run(&arguments, streams),
         cli::Command::Config(arguments) => config::run(&arguments, streams),
+        cli::Command::Generate(arguments) => generate::run(&arguments, streams),
         cli::Command::Run(arguments) => run::run(&arguments, streams),
+        cli::Command::Bus(arguments) => bus::run(&arguments, streams),
+        cli::Command::Monitor(arguments) => monitor::run(&arguments, streams),
+        cli::Command::Nmt(arguments) => nmt::run(&arguments, streams),
+        cli::Command::Sdo(arguments) => sdo::run(&arguments, streams),
         cli::Command::Explain(arguments) => explain::run(&arguments, streams),
         cli::Command::Completions { shell } => generated::completions(shell, streams),
         cli::Command::Man => generated::man(streams),

@@ -114,8 +114,8 @@ fn an_unchanged_file_is_not_written_again() {
     let folder = Folder::new("unchanged");
     let path = folder.write("a.rs", "text");
     let before = fs::metadata(&path).unwrap().modified().unwrap();
-    write_if_changed(&path, "text").unwrap();
+    assert!(!write_if_changed(&path, "text").unwrap());
     assert_eq!(fs::metadata(&path).unwrap().modified().unwrap(), before);
-    write_if_changed(&path, "other").unwrap();
+    assert!(write_if_changed(&path, "other").unwrap());
     assert_eq!(fs::read_to_string(&path).unwrap(), "other");
 }

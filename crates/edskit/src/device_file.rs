@@ -1,0 +1,32 @@
+//! An EDS or DCF with the side-file beside it (docs/generating.md).
+
+use crate::files::unreadable;
+use edskit_codegen::Naming;
+use std::fs;
+use std::path::Path;
+
+/// The two files that a dictionary is made from.
+pub(crate) struct DeviceFile {
+    pub(crate) eds: Vec<u8>,
+    /// The text of the side-file, where there is one.
+    pub(crate) side_file: Option<String>,
+    /// How both files are called.
+    pub(crate) naming: Naming,
+}
+
+impl DeviceFile {
+    /// Reads both. A side-file that is named has to exist, the one beside the EDS need not.
+    pub(crate) fn read(eds: &Path, side_file: Option<&Path>) -> Result<Self, String> {
+        let mut naming = Naming::of(&eds.to_string_lossy());
+        let bytes = fs::read(eds).map_err(|error| unreadable(&naming.eds, &error))?;
+        if let Some(side_file) = side_file {
+            naming.side_file = side_file.to_string_lossy().into_owned();
+        }
+        let text = match fs::read_to_string(&naming.side_file) {
+            Ok(text) => Some(text),
+            Err(error) if side_file.is_none() && error.kind() == std::io::ErrorKind::NotFound => None,
+            Err(error) => return Err(unreadable(&naming.side_file, &error)),
+        };
+        Ok(Self { eds: bytes, side_file: text, naming })
+    }
+}

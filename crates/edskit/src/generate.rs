@@ -1,0 +1,69 @@
+//! `edskit generate`: the object dictionary of an EDS as Rust, without a build script.
+
+use crate::cli::GenerateArguments;
+use crate::device_file::DeviceFile;
+use crate::printable;
+use crate::{Exit, Streams};
+use edskit_codegen::{Naming, Problem, generate, module_name, write_if_changed};
+use edskit_lint::{Linter, RuleSet};
+use std::ffi::OsString;
+use std::io;
+
+pub(crate) fn run(arguments: &GenerateArguments, streams: &mut Streams) -> io::Result<Exit> {
+    let DeviceFile { eds, side_file, mut naming } =
+        match DeviceFile::read(&arguments.file, arguments.side_file.as_deref()) {
+            Ok(file) => file,
+            Err(reason) => {
+                streams.complain(format_args!("{reason}"));
+                return Ok(Exit::Failed);
+            }
+        };
+    if let Some(name) = &arguments.name {
+        naming.module = module_name(name);
+    }
+    naming.runtime.clone_from(&arguments.runtime);
+    let linter = Linter::new(RuleSet::default());
+    let generated = match generate(&eds, side_file.as_deref(), &naming, &linter) {
+        Ok(generated) => generated,
+        Err(problems) => {
+            print(&problems, &naming, streams)?;
+            let reason = match problems.len() {
+                1 => "1 error, nothing is generated".to_owned(),
+                count => format!("{count} errors, nothing is generated"),
+            };
+            streams.complain(format_args!("{}: {reason}", printable::line(&naming.eds)));
+            return Ok(Exit::Findings);
+        }
+    };
+    print(&generated.warnings, &naming, streams)?;
+    let path = arguments.output.join(file_name(arguments));
+    match write_if_changed(&path, &generated.code) {
+        Ok(is_new) => {
+            let what = if is_new { "written" } else { "unchanged" };
+            writeln!(streams.stdout, "{}: {what}, module `{}`", path.display(), naming.module)?;
+            streams.stdout.flush()?;
+            Ok(Exit::Clean)
+        }
+        Err(error) => {
+            streams.complain(format_args!("{}: {error}", path.display()));
+            Ok(Exit::Failed)
+        }
+    }
+}
+
+/// `Device.rs`, after the given name or the EDS.
+fn file_name(arguments: &GenerateArguments) -> OsString {
+    let stem = || arguments.file.file_stem().unwrap_or_default().to_owned();
+    let mut name = arguments.name.as_ref().map_or_else(stem, OsString::from);
+    name.push(".rs");
+    name
+}
+
+/// One line for each problem, as the concise format of `edskit lint` has them.
+fn print(problems: &[Problem], naming: &Naming, streams: &mut Streams) -> io::Result<()> {
+    for problem in problems {
+        let line = problem.line(&naming.eds, &naming.side_file).to_string();
+        writeln!(streams.stderr, "{}: {}", problem.severity, printable::line(&line))?;
+    }
+    Ok(())
+}

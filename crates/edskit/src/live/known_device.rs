@@ -1,0 +1,60 @@
+//! What an EDS or DCF knows of a device on the bus.
+
+use crate::files::unreadable;
+use crate::printable;
+use edskit_model::{Datasheet, DictionaryEntry, Document, Object};
+use edskit_types::{Index, NodeId, SubIndex};
+use std::fs;
+use std::path::Path;
+
+/// A device with its file.
+pub(crate) struct KnownDevice {
+    /// The file as it was named.
+    pub(crate) file: String,
+    pub(crate) sheet: Datasheet,
+}
+
+impl KnownDevice {
+    pub(crate) fn read(path: &Path) -> Result<Self, String> {
+        let file = path.to_string_lossy().into_owned();
+        let bytes = fs::read(path).map_err(|error| unreadable(&file, &error))?;
+        let sheet = Datasheet::new(Document::from_vec(bytes));
+        if sheet.objects().next().is_none() {
+            return Err(format!(
+                "{file}: the file describes no object; `edskit lint` says what is wrong with it"
+            ));
+        }
+        Ok(Self { file, sheet })
+    }
+
+    /// The node-ID that a DCF commissions.
+    pub(crate) fn node_id(&self) -> Option<NodeId> {
+        let node_id = self.sheet.commissioning()?.node_id()?.known()?;
+        NodeId::new(node_id).ok()
+    }
+
+    pub(crate) fn entry(&self, index: Index, sub_index: SubIndex) -> Option<DictionaryEntry<'_>> {
+        self.sheet.dictionary_entry(index, sub_index)
+    }
+
+    /// `Identity object/Vendor-ID`, or the name alone for an object without sub-objects; `None` where the file names
+    /// nothing there.
+    pub(crate) fn name(&self, index: Index, sub_index: SubIndex) -> Option<String> {
+        let object = self.sheet.object(index)?;
+        Some(full_name(object, object.dictionary_entry(sub_index)?)).filter(|name| !name.is_empty())
+    }
+}
+
+/// The name of an object.
+pub(crate) fn object_name(object: Object<'_>) -> String {
+    let name = object.description().parameter_name();
+    printable::line(&name.map(|name| name.text().into_owned()).unwrap_or_default())
+}
+
+/// The name of an entry behind that of its object.
+pub(crate) fn full_name(object: Object<'_>, entry: DictionaryEntry<'_>) -> String {
+    let has_sub_objects =
+        object.compact_count() > 0 || object.object_code().is_none_or(|code| code.has_sub_objects());
+    let name = object_name(object);
+    if has_sub_objects { format!("{name}/{}", printable::line(&entry.name())) } else { name }
+}

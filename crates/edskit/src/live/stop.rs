@@ -1,0 +1,22 @@
+//! Ctrl-C.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether the user has asked the command to end.
+pub(crate) struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// From now on Ctrl-C does not end the process but is noted.
+    pub(crate) fn on_ctrl_c() -> Result<Self, String> {
+        let asked = Arc::new(AtomicBool::new(false));
+        let noted = Arc::clone(&asked);
+        ctrlc::set_handler(move || noted.store(true, Ordering::Relaxed))
+            .map_err(|error| format!("Ctrl-C cannot be caught: {error}"))?;
+        Ok(Self(asked))
+    }
+
+    pub(crate) fn is_asked(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}

@@ -1,0 +1,132 @@
+//! Bytes, as people and programs read them.
+
+use super::calendar::time_of_day;
+use super::size;
+use crate::printable;
+use edskit_types::{DataType, DataTypeKind};
+use serde_json::{Value as Json, json};
+
+/// A value of a type for people. Bytes that cannot be one are shown with the reason.
+pub(crate) fn text(data_type: DataType, bytes: &[u8]) -> String {
+    if size(data_type).is_some_and(|size| size != bytes.len()) {
+        let size = size(data_type).unwrap_or_default();
+        return format!("{} ({} bytes, but {} has {size})", hex(bytes), bytes.len(), data_type.name());
+    }
+    match data_type.kind() {
+        DataTypeKind::Boolean => match bytes {
+            [0] => "0 (false)".to_owned(),
+            [1] => "1 (true)".to_owned(),
+            _ => format!("{} (neither 0 nor 1)", hex(bytes)),
+        },
+        DataTypeKind::Unsigned => {
+            let value = unsigned(bytes);
+            format!("{value} ({})", in_hex(value, bytes.len()))
+        }
+        DataTypeKind::Signed => match signed(bytes) {
+            value if value < 0 => format!("{value} (-{})", in_hex(value.unsigned_abs(), bytes.len())),
+            value => format!("{value} ({})", in_hex(value.unsigned_abs(), bytes.len())),
+        },
+        DataTypeKind::Real => real(bytes),
+        DataTypeKind::VisibleString => {
+            // Some devices fill what is left of a text with zeros.
+            let end = bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+            format!("\"{}\"", printable::line(&String::from_utf8_lossy(&bytes[..end])))
+        }
+        DataTypeKind::UnicodeString => format!("\"{}\"", printable::line(&utf16(bytes))),
+        DataTypeKind::TimeOfDay => {
+            let (days, milliseconds) = time(bytes);
+            time_of_day(days, milliseconds)
+        }
+        DataTypeKind::TimeDifference => {
+            let (days, milliseconds) = time(bytes);
+            let plural = if days == 1 { "" } else { "s" };
+            format!("{days} day{plural} and {milliseconds} ms")
+        }
+        DataTypeKind::OctetString | DataTypeKind::Domain | DataTypeKind::Record => hex(bytes),
+    }
+}
+
+/// A value of a type for programs: a number, a text, or bytes as hexadecimal digits. Numbers beyond 53 bits are exact.
+pub(crate) fn json(data_type: DataType, bytes: &[u8]) -> Json {
+    if size(data_type).is_some_and(|size| size != bytes.len()) {
+        return json!(digits(bytes));
+    }
+    match data_type.kind() {
+        DataTypeKind::Boolean => match bytes {
+            [0] => json!(false),
+            [1] => json!(true),
+            _ => json!(digits(bytes)),
+        },
+        DataTypeKind::Unsigned => json!(unsigned(bytes)),
+        DataTypeKind::Signed => json!(signed(bytes)),
+        // JSON has neither infinities nor NaN.
+        DataTypeKind::Real => match (number_of(bytes), real(bytes)) {
+            (Some(value), _) if value.is_finite() => json!(value),
+            (_, text) => json!(text),
+        },
+        DataTypeKind::VisibleString => json!(String::from_utf8_lossy(bytes).trim_end_matches('\0')),
+        DataTypeKind::UnicodeString => json!(utf16(bytes)),
+        DataTypeKind::TimeOfDay | DataTypeKind::TimeDifference => json!(text(data_type, bytes)),
+        DataTypeKind::OctetString | DataTypeKind::Domain | DataTypeKind::Record => json!(digits(bytes)),
+    }
+}
+
+/// Bytes of which nothing is known: as they are, and as the unsigned number that they could be.
+pub(crate) fn untyped(bytes: &[u8]) -> String {
+    match bytes.len() {
+        0 => "(no bytes)".to_owned(),
+        1 | 2 | 4 | 8 => format!("{} ({})", hex(bytes), unsigned(bytes)),
+        _ => hex(bytes),
+    }
+}
+
+/// `0A 0B`
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02X}")).collect::<Vec<_>>().join(" ")
+}
+
+/// `0A0B`
+pub(crate) fn digits(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02X}")).collect()
+}
+
+/// `03E8h`
+fn in_hex(value: u64, length: usize) -> String {
+    format!("{value:0width$X}h", width = 2 * length)
+}
+
+fn unsigned(bytes: &[u8]) -> u64 {
+    bytes.iter().take(8).rev().fold(0, |value, byte| value << 8 | u64::from(*byte))
+}
+
+fn signed(bytes: &[u8]) -> i64 {
+    let unused = 64 - 8 * bytes.len().clamp(1, 8) as u32;
+    (unsigned(bytes) << unused) as i64 >> unused
+}
+
+fn number_of(bytes: &[u8]) -> Option<f64> {
+    if let Ok(bytes) = <[u8; 4]>::try_from(bytes) {
+        // By its shortest notation, so that 0.1 does not become 0.10000000149.
+        return f32::from_le_bytes(bytes).to_string().parse().ok();
+    }
+    <[u8; 8]>::try_from(bytes).ok().map(f64::from_le_bytes)
+}
+
+fn real(bytes: &[u8]) -> String {
+    match (<[u8; 4]>::try_from(bytes), <[u8; 8]>::try_from(bytes)) {
+        (Ok(bytes), _) => f32::from_le_bytes(bytes).to_string(),
+        (_, Ok(bytes)) => f64::from_le_bytes(bytes).to_string(),
+        _ => hex(bytes),
+    }
+}
+
+fn utf16(bytes: &[u8]) -> String {
+    let units: Vec<u16> = bytes.chunks(2).map(|pair| unsigned(pair) as u16).collect();
+    String::from_utf16_lossy(&units).trim_end_matches('\0').to_owned()
+}
+
+/// Days and milliseconds.
+fn time(bytes: &[u8]) -> (u16, u32) {
+    let raw = unsigned(bytes);
+    ((raw >> 32) as u16, raw as u32 & 0x0FFF_FFFF)
+}

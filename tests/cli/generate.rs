@@ -1,0 +1,54 @@
+//! `edskit generate`. What it generates is judged by the tests of the generator.
+
+use edskit_codegen::{Naming, generate};
+use edskit_lint::{Linter, RuleSet};
+use edskit_tests::{Folder, edskit};
+use std::fs;
+
+const PUMP: &str = "fixtures/generated/Pump.eds";
+
+#[test]
+fn the_same_as_in_a_build_script() {
+    let folder = Folder::new("generate");
+    let output = format!("{}/new/folder", folder.path());
+    insta::assert_snapshot!("generate_written", folder.clean(&edskit(&["generate", PUMP, "-o", &output])));
+    insta::assert_snapshot!("generate_unchanged", folder.clean(&edskit(&["generate", PUMP, "-o", &output])));
+    let eds = fs::read(PUMP).unwrap();
+    let expected = generate(&eds, None, &Naming::of(PUMP), &Linter::new(RuleSet::default())).unwrap();
+    assert!(folder.read("new/folder/Pump.rs") == expected.code.as_bytes());
+}
+
+#[test]
+fn names_and_side_files() {
+    let folder = Folder::new("generate-named");
+    let side_file = folder.write("units.toml", "[unit]\n'1017' = 'ms'\n");
+    let arguments =
+        ["generate", PUMP, "--output", folder.path(), "--name", "MainPump", "--side-file", &side_file];
+    let output = edskit(&[&arguments[..], &["--runtime", "crate::runtime"]].concat());
+    insta::assert_snapshot!("generate_named", folder.clean(&output));
+    let code = String::from_utf8(folder.read("MainPump.rs")).unwrap();
+    assert!(
+        code.contains("pub mod main_pump") && code.contains("crate::runtime") && code.contains("in `ms`"),
+        "{code}"
+    );
+}
+
+#[test]
+fn what_cannot_be_generated() {
+    let folder = Folder::new("generate-not");
+    let eds = folder.write("Pump.eds", fs::read(PUMP).unwrap());
+    folder.write("Pump.toml", "[unit]\n'1O17' = 'ms'\n");
+    let blocked = folder.write("file", "in the way");
+    let cases: [(&str, &[&str]); 6] = [
+        ("errors", &["fixtures/faulty.eds", "-o", folder.path()]),
+        ("missing", &["nowhere.eds", "-o", folder.path()]),
+        ("no_folder", &[PUMP]),
+        ("bad_side_file", &[&eds, "-o", folder.path()]),
+        ("missing_side_file", &[PUMP, "-o", folder.path(), "--side-file", "nowhere.toml"]),
+        ("blocked", &[PUMP, "-o", &blocked]),
+    ];
+    for (name, arguments) in cases {
+        let output = edskit(&[&["generate"], arguments].concat());
+        insta::assert_snapshot!(format!("generate_{name}"), folder.clean(&output));
+    }
+}
