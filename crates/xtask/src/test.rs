@@ -28,7 +28,7 @@ const STEPS: &[Step] = &[
     ("benchmarks compile", || run(&mut cargo(&["bench", "-p", "edskit-benches", "--no-run"]))),
     ("fuzz targets compile", fuzz_targets),
     ("independent reading of the corpus", python::independent_reading),
-    ("conformance of a loaded file", conformance::of_a_loaded_file),
+    ("conformance of nodes", conformance::of_nodes),
 ];
 
 /// Runs every step, also behind one that failed, and ends with a summary.
