@@ -11,7 +11,7 @@
 //! | `SocketCan`: an interface of the Linux kernel, with the feature `socketcan` | `socketcan:can0` | yes |
 //!
 //! [`open`] makes a bus of an [`Address`]. Around any bus go decorators: [`Trace`], [`Loss`], [`Duplication`],
-//! [`Delay`] and [`BusOff`].
+//! [`Delay`] and [`BusOff`]. An SDO client is in [`sdo`].
 //!
 //! A [`Station`] is a node on a bus; [`MemoryDevice`] and [`MemoryStorage`] are a device that has nothing behind it.
 //!
@@ -47,6 +47,7 @@ mod hub;
 mod in_process;
 mod open;
 mod queue;
+pub mod sdo;
 mod slcan;
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 mod socketcan;

@@ -3,15 +3,24 @@
 /// CRC with the polynomial x^16 + x^12 + x^5 + 1 and the start value 0 (CiA 301 v4.2, 7.2.4.3.16).
 ///
 /// One byte at a time without a table: 512 bytes of flash are worth more here than the time.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Crc(u16);
+///
+/// ```
+/// let mut crc = edskit_runtime::Crc::new();
+/// crc.update(b"123456789");
+/// assert_eq!(crc.value(), 0x31C3);
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Crc(u16);
 
 impl Crc {
-    pub(crate) const fn new() -> Self {
+    /// The checksum of no bytes.
+    #[must_use]
+    pub const fn new() -> Self {
         Self(0)
     }
 
-    pub(crate) fn update(&mut self, data: &[u8]) {
+    /// Takes further bytes in.
+    pub fn update(&mut self, data: &[u8]) {
         for byte in data {
             let mut x = (self.0 >> 8) ^ u16::from(*byte);
             x ^= x >> 4;
@@ -19,7 +28,9 @@ impl Crc {
         }
     }
 
-    pub(crate) const fn value(self) -> u16 {
+    /// The checksum of all bytes that were taken in.
+    #[must_use]
+    pub const fn value(self) -> u16 {
         self.0
     }
 }

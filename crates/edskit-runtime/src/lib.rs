@@ -11,6 +11,7 @@
 //! | what a device adds | [`Application`], [`Storage`] |
 //! | errors | [`Error`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
+//! | for SDO clients too | [`Crc`] |
 #![no_std]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -41,6 +42,7 @@ mod time;
 mod time_stamp;
 
 pub use application::{Application, NoApplication, Reset, TimeOfDay};
+pub use crc::Crc;
 pub use dictionary::{
     Dictionary, Entry, Flags, Handle, Limits, Memory, Objects, Parts, Position, StorageGroup, Table, Value,
 };
