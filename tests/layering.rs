@@ -49,10 +49,12 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
             "edskit-devices",
             "edskit-runtime",
             "edskit-codegen",
+            "edskit-host",
             "edskit",
         ],
         Any,
     ),
+    ("edskit-tests-device", &["edskit-codegen", "edskit-runtime", "edskit-host"], Any),
     ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),
     ("xtask", &[], Any),
 ];
