@@ -2,16 +2,11 @@
 //!
 //! An allocator counts. No test looks at a clock: where memory and the number of allocations are proportional to the
 //! input for every kind of input, so is the time, or the test does not end.
-#![allow(
-    unsafe_code,
-    reason = "a global allocator is unsafe by its trait; this one counts and leaves the work to the system"
-)]
 
 use edskit_lint::{FileKind, Linter, RuleSet};
 use edskit_model::Datasheet;
+use edskit_tests::allocation::{self, Counted, Counting};
 use edskit_tests::hostile;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 
 /// The most memory that parsing and linting a hostile file may take, whatever it says.
 const MOST_MEMORY: usize = 50_000_000;
@@ -74,66 +69,13 @@ impl Cost {
         let linter = Linter::new(RuleSet::all());
         // The first file of a process also pays for reading the profiles of CiA.
         linter.lint(&Datasheet::parse(b"[1000]\n"), FileKind::Eds, None);
-        COUNTERS.set(Counters { allocations: 0, bytes: 0, peak: 0 });
+        allocation::begin();
         let sheet = Datasheet::parse(bytes);
         linter.lint(&sheet, FileKind::of(file_name), Some(file_name));
-        let Counters { allocations, peak, .. } = COUNTERS.get();
-        Self { allocations, peak: peak.unsigned_abs() }
+        let Counted { allocations, peak } = allocation::counted();
+        Self { allocations, peak }
     }
 }
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
-
-struct Counting;
-
-/// What one thread has allocated.
-#[derive(Clone, Copy)]
-struct Counters {
-    allocations: usize,
-    /// May go below zero where another thread allocated what this one frees.
-    bytes: isize,
-    peak: isize,
-}
-
-thread_local! {
-    static COUNTERS: Cell<Counters> = const { Cell::new(Counters { allocations: 0, bytes: 0, peak: 0 }) };
-}
-
-fn count(allocated: usize, freed: usize) {
-    let mut counters = COUNTERS.get();
-    counters.allocations += usize::from(allocated > 0);
-    counters.bytes += allocated as isize - freed as isize;
-    counters.peak = counters.peak.max(counters.bytes);
-    COUNTERS.set(counters);
-}
-
-// SAFETY: every call goes to the system's allocator unchanged. The counters are of this thread, need no destructor and
-// allocate nothing.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count(layout.size(), 0);
-        // SAFETY: what the caller guarantees.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count(0, layout.size());
-        // SAFETY: what the caller guarantees.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
-        count(layout.size(), 0);
-        // SAFETY: what the caller guarantees.
-        unsafe { System.alloc_zeroed(layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // Old and new block exist at the same time while one is copied to the other.
-        count(size, 0);
-        count(0, layout.size());
-        // SAFETY: what the caller guarantees.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}

@@ -1,5 +1,6 @@
 //! Helpers of the tests of what crosses crates: where the files are, hostile ones, and the command line.
 
+pub mod allocation;
 mod command;
 pub mod field_report;
 mod folder;

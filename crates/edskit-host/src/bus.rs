@@ -71,6 +71,28 @@ pub trait Bus {
     }
 }
 
+impl<B: Bus + ?Sized> Bus for &mut B {
+    fn now(&self) -> Instant {
+        (**self).now()
+    }
+
+    fn receive(&mut self) -> Result<Option<Received>, BusError> {
+        (**self).receive()
+    }
+
+    fn send(&mut self, frame: &Frame) -> Result<(), SendError> {
+        (**self).send(frame)
+    }
+
+    fn wait(&mut self, deadline: Instant) -> Result<(), BusError> {
+        (**self).wait(deadline)
+    }
+
+    fn event(&mut self) -> Option<Event> {
+        (**self).event()
+    }
+}
+
 impl<B: Bus + ?Sized> Bus for Box<B> {
     fn now(&self) -> Instant {
         (**self).now()

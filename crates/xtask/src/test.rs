@@ -30,7 +30,7 @@ const STEPS: &[Step] = &[
     ("no operating system below the runtime", thumb::no_std),
     ("size of a firmware", thumb::firmware),
     ("independent reading of the corpus", python::independent_reading),
-    ("conformance of a loaded file", conformance::of_a_loaded_file),
+    ("conformance of nodes", conformance::of_nodes),
 ];
 
 /// Runs every step, also behind one that failed, and ends with a summary; with words only the steps whose titles have
