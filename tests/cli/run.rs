@@ -10,13 +10,20 @@ fn what_cannot_be_run() {
     let with_side_file =
         folder.write("sided.eds", "[1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\n");
     folder.write("sided.toml", "[unit]\n'1017' = 'ms'\n\n[capacity]\n'1017' = 'long'\n");
-    let cases: [(&str, &[&str]); 6] = [
+    let incomplete = folder.write(
+        "incomplete.eds",
+        "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n\
+         [1A00sub1]\nDataType=7\nDefaultValue=0x20000010\n[2000]\nDataType=6 ; UNSIGNED16\nAccessType=ro\n",
+    );
+    let nobody = "socketcand:127.0.0.1:1/can0";
+    let cases: [(&str, &[&str]); 7] = [
         ("missing", &["nowhere.eds"]),
         ("nothing", &[&empty]),
         ("side_file", &[&with_side_file]),
         ("bus", &[&good, "--bus", "socketcan"]),
         ("node_id", &[&good, "--node-id", "128"]),
-        ("nobody", &[&good, "--bus", "socketcand:127.0.0.1:1/can0"]),
+        ("nobody", &[&good, "--bus", nobody]),
+        ("incomplete", &[&incomplete, "--bus", nobody]),
     ];
     for (name, arguments) in cases {
         let output = edskit(&[&["run"], arguments].concat());

@@ -11,6 +11,68 @@
 //! | what a device adds | [`Application`], [`Storage`] |
 //! | errors | [`Error`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
+//!
+//! A dictionary is generated from an EDS ([`include_dictionary!`]); what comes out is the like of this thermometer:
+//!
+//! ```
+//! use edskit_runtime::types::{AbortCode, CanId, DataType, Index, SubIndex};
+//! use edskit_runtime::{
+//!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Memory, NoStorage, Node, Objects, Parts, Position,
+//!     Settings, Table,
+//! };
+//!
+//! const VARIABLE: Flags = Flags::READ.and(Flags::VARIABLE);
+//!
+//! static TABLE: Table = Table {
+//!     entries: &[
+//!         entry(0x1000, DataType::Unsigned32, Flags::READ, 0, 4), // Device type
+//!         entry(0x1017, DataType::Unsigned16, VARIABLE.and(Flags::WRITE), 0, 2), // Producer heartbeat time, ms
+//!         entry(0x2000, DataType::Integer16, VARIABLE, 2, 2), // Temperature, 0.1 °C
+//!     ],
+//!     constants: &[0x94, 0x01, 0x02, 0x00],
+//!     defaults: &[0xE8, 0x03, 0x00, 0x00],
+//!     limits: &[],
+//!     dummies: 0,
+//!     fingerprint: 1,
+//! };
+//! const TEMPERATURE: Handle<i16> = Handle::new(Position(2));
+//!
+//! const fn entry(index: u16, data_type: DataType, flags: Flags, offset: u16, size: u16) -> Entry {
+//!     Entry { index: Index(index), sub_index: SubIndex(0), data_type, flags, offset, size }
+//! }
+//!
+//! // Four bytes of values, no PDOs, one SDO server with a buffer of eight bytes.
+//! struct Thermometer(Memory<4, 0, 0, 0, 1, 0, 8>);
+//!
+//! impl Dictionary for Thermometer {
+//!     fn parts(&mut self) -> Parts<'_> {
+//!         self.0.parts(&TABLE)
+//!     }
+//! }
+//!
+//! /// The device behind the node.
+//! struct Sensor;
+//!
+//! impl Application for Sensor {
+//!     fn before_read(&mut self, objects: &mut Objects<'_>, _: &Entry) -> Result<(), AbortCode> {
+//!         objects.set(TEMPERATURE, 215);
+//!         Ok(())
+//!     }
+//! }
+//!
+//! let dictionary = Thermometer(Memory::new([0xE8, 0x03, 0x00, 0x00]));
+//! let mut node = Node::new(dictionary, Settings::default(), NoStorage);
+//! node.poll(Instant(0), &mut Sensor);
+//! let boot_up = node.transmit().unwrap();
+//! assert_eq!((boot_up.can_id().raw(), boot_up.data()), (0x701, &[0x00][..]));
+//!
+//! // A client reads the temperature.
+//! let request = Frame::new(CanId::standard(0x601).unwrap(), &[0x40, 0x00, 0x20, 0x00, 0, 0, 0, 0]);
+//! node.receive(Instant(5_000), &request, &mut Sensor);
+//! assert_eq!(node.transmit().unwrap().data(), [0x4B, 0x00, 0x20, 0x00, 215, 0, 0, 0]);
+//! // The next thing to do is the heartbeat.
+//! assert_eq!(node.next_deadline(Instant(5_000)), Instant(1_000_000));
+//! ```
 //! | for SDO clients too | [`Crc`] |
 #![no_std]
 #![forbid(unsafe_code)]

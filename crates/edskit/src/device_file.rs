@@ -1,8 +1,10 @@
 //! An EDS or DCF with the side-file beside it (docs/generating.md).
 
 use crate::files::unreadable;
-use edskit_codegen::Naming;
+use crate::{Streams, printable};
+use edskit_codegen::{Naming, Problem};
 use std::fs;
+use std::io;
 use std::path::Path;
 
 /// The two files that a dictionary is made from.
@@ -29,4 +31,13 @@ impl DeviceFile {
         };
         Ok(Self { eds: bytes, side_file: text, naming })
     }
+}
+
+/// One line for each problem, as the concise format of `edskit lint` has them.
+pub(crate) fn print_problems(problems: &[Problem], naming: &Naming, streams: &mut Streams) -> io::Result<()> {
+    for problem in problems {
+        let line = problem.line(&naming.eds, &naming.side_file).to_string();
+        writeln!(streams.stderr, "{}: {}", problem.severity, printable::line(&line))?;
+    }
+    Ok(())
 }

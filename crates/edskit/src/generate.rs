@@ -1,10 +1,10 @@
 //! `edskit generate`: the object dictionary of an EDS as Rust, without a build script.
 
 use crate::cli::GenerateArguments;
-use crate::device_file::DeviceFile;
+use crate::device_file::{DeviceFile, print_problems};
 use crate::printable;
 use crate::{Exit, Streams};
-use edskit_codegen::{Naming, Problem, generate, module_name, write_if_changed};
+use edskit_codegen::{generate, module_name, write_if_changed};
 use edskit_lint::{Linter, RuleSet};
 use std::ffi::OsString;
 use std::io;
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &GenerateArguments, streams: &mut Streams) -> io::R
     let generated = match generate(&eds, side_file.as_deref(), &naming, &linter) {
         Ok(generated) => generated,
         Err(problems) => {
-            print(&problems, &naming, streams)?;
+            print_problems(&problems, &naming, streams)?;
             let reason = match problems.len() {
                 1 => "1 error, nothing is generated".to_owned(),
                 count => format!("{count} errors, nothing is generated"),
@@ -35,7 +35,7 @@ pub(crate) fn run(arguments: &GenerateArguments, streams: &mut Streams) -> io::R
             return Ok(Exit::Findings);
         }
     };
-    print(&generated.warnings, &naming, streams)?;
+    print_problems(&generated.warnings, &naming, streams)?;
     let path = arguments.output.join(file_name(arguments));
     match write_if_changed(&path, &generated.code) {
         Ok(is_new) => {
@@ -57,13 +57,4 @@ fn file_name(arguments: &GenerateArguments) -> OsString {
     let mut name = arguments.name.as_ref().map_or_else(stem, OsString::from);
     name.push(".rs");
     name
-}
-
-/// One line for each problem, as the concise format of `edskit lint` has them.
-fn print(problems: &[Problem], naming: &Naming, streams: &mut Streams) -> io::Result<()> {
-    for problem in problems {
-        let line = problem.line(&naming.eds, &naming.side_file).to_string();
-        writeln!(streams.stderr, "{}: {}", problem.severity, printable::line(&line))?;
-    }
-    Ok(())
 }

@@ -3,12 +3,12 @@
 mod log;
 
 use crate::cli::RunArguments;
-use crate::device_file::DeviceFile;
+use crate::device_file::{DeviceFile, print_problems};
 use crate::live::{Log, PATIENCE, Stop, start_hub};
 use crate::{Exit, Streams};
-use edskit_codegen::{Layout, LoadedDictionary, Problem, SideFile, lay_out};
+use edskit_codegen::{Layout, LoadedDictionary, Naming, Problem, SideFile, lay_out};
 use edskit_host::{Address, Bus, BusError, Hub, MemoryDevice, MemoryStorage, Station, open};
-use edskit_lint::FileKind;
+use edskit_lint::{FileKind, Severity};
 use edskit_model::{Datasheet, Document, Field};
 use edskit_runtime::{Node, Settings};
 use edskit_types::NodeId;
@@ -16,7 +16,7 @@ use std::io;
 use std::path::Path;
 
 pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
-    let (layout, commissioned) = match load(&arguments.file) {
+    let Loaded { layout, commissioned, naming } = match load(&arguments.file) {
         Ok(loaded) => loaded,
         Err(reasons) => {
             for reason in reasons {
@@ -25,6 +25,7 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
             return Ok(Exit::Failed);
         }
     };
+    print_problems(&warnings_of(&layout), &naming, streams)?;
     let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
     let log = Log::new(arguments.log);
     // The hub lives as long as the node.
@@ -70,8 +71,23 @@ fn lost(error: &BusError, streams: &mut Streams) -> io::Result<Exit> {
     Ok(Exit::Failed)
 }
 
-/// Reads a file with its side-file and lays its dictionary out; with the node-ID that a DCF commissions.
-fn load(path: &Path) -> Result<(Layout, Option<NodeId>), Vec<String>> {
+/// What a file gives to run.
+struct Loaded {
+    layout: Layout,
+    /// The node-ID that a DCF commissions.
+    commissioned: Option<NodeId>,
+    naming: Naming,
+}
+
+/// What the node does without, although the file describes it.
+fn warnings_of(layout: &Layout) -> Vec<Problem> {
+    let mappings = layout.mapping_problems();
+    let without = mappings.into_iter().map(|problem| Problem { severity: Severity::Warning, ..problem });
+    layout.notes.iter().cloned().chain(without).collect()
+}
+
+/// Reads a file with its side-file and lays its dictionary out.
+fn load(path: &Path) -> Result<Loaded, Vec<String>> {
     let DeviceFile { eds, side_file, naming } =
         DeviceFile::read(path, None).map_err(|reason| vec![reason])?;
     let name = &naming.eds;
@@ -87,7 +103,8 @@ fn load(path: &Path) -> Result<(Layout, Option<NodeId>), Vec<String>> {
     let is_dcf = FileKind::of(name) == FileKind::Dcf;
     let commissioning = sheet.commissioning().filter(|_| is_dcf);
     let node_id = commissioning.and_then(|section| section.node_id()).and_then(Field::known);
-    Ok((layout, node_id.and_then(|node_id| NodeId::new(node_id).ok())))
+    let commissioned = node_id.and_then(|node_id| NodeId::new(node_id).ok());
+    Ok(Loaded { layout, commissioned, naming })
 }
 
 /// A bus, and the hub where this process has started one for it.
