@@ -61,6 +61,11 @@ impl Lss {
         Self { is_in_configuration: false, selected: 0, identified: 0, scanned: 0, bit_rate: None }
     }
 
+    /// Back to the state waiting, to which the initial state leads (CiA 305, slave FSA); a bit rate stays configured.
+    pub(crate) fn restart(&mut self) {
+        *self = Self { bit_rate: self.bit_rate, ..Self::new() };
+    }
+
     pub(crate) fn is_in_configuration(&self) -> bool {
         self.is_in_configuration
     }

@@ -69,6 +69,7 @@ impl Context<'_> {
         let is_reset = move |entry: &Entry| reset == Reset::Node || (0x1000..0x2000).contains(&entry.index.0);
         self.objects.restore(node_id, is_reset);
         self.core.emcy = Emcy::new();
+        self.core.lss.restart();
         self.load_parameters(is_reset);
         self.app.reset(&mut self.objects, reset);
         self.configure();

@@ -115,6 +115,7 @@ impl Nmt {
     /// A node boots up where it has a node-ID.
     fn reset(&mut self) {
         self.node_id = self.pending;
+        self.is_in_configuration = false;
         let has_booted = self.node_id.is_some();
         self.state = if has_booted { NmtState::PreOperational } else { NmtState::Initialising };
     }

@@ -1,7 +1,10 @@
 //! A node on a bus.
 
 use crate::{Bus, BusError, SendError};
-use edskit_runtime::{Application, Dictionary, Frame, Instant, Node, Storage};
+use edskit_runtime::{Application, Dictionary, Frame, Instant, Microseconds, Node, Storage};
+
+/// When a bus that has no room is asked again: a little more than the longest frame takes at 1 Mbit/s.
+const RETRY: Microseconds = Microseconds(150);
 
 /// A node with the device behind it, on a bus: what the main loop of a firmware is on a computer.
 ///
@@ -49,7 +52,9 @@ impl<D: Dictionary, S: Storage, A: Application, B: Bus> Station<D, S, A, B> {
         }
         self.node.poll(self.bus.now(), &mut self.device);
         self.send_all();
-        Ok(self.node.next_deadline(self.bus.now()))
+        let now = self.bus.now();
+        let next = self.node.next_deadline(now);
+        Ok(if self.waiting.is_some() { now + RETRY } else { next })
     }
 
     fn send_all(&mut self) {

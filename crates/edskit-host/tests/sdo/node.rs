@@ -1,63 +1,34 @@
 //! A bus with a node that acts whenever somebody waits.
 
-use edskit_host::{Bus, BusError, Participant, Received, SendError, VirtualBus};
+use edskit_host::{Bus, BusError, MemoryDevice, Participant, Received, SendError, Station, VirtualBus};
 use edskit_runtime::{
-    Application, Dictionary, Entry, Flags, Frame, Instant, NoStorage, Node, Objects, Parts, SdoServer,
-    Settings, Table,
+    Dictionary, Entry, Flags, Frame, Instant, Memory, NoStorage, Node, Parts, Settings, Table,
 };
-use edskit_types::{AbortCode, Bitrate, DataType, Index, SubIndex};
+use edskit_types::{Bitrate, DataType, Index, SubIndex};
 
 /// How many bytes the text can have.
 pub(crate) const TEXT_CAPACITY: usize = 2000;
+/// The text with its length, and a number.
+const VALUES: usize = 2 + TEXT_CAPACITY + 4;
 
 /// A participant's view of a bus on which there is a node with node-ID 1.
 pub(crate) struct Served {
     bus: VirtualBus,
     tool: Participant,
-    side: Participant,
-    node: Node<Device, NoStorage>,
-    domain: Domain,
-    /// A frame of the node for which the bus had no room.
-    waiting: Option<Frame>,
+    station: Station<Device, NoStorage, MemoryDevice, Participant>,
 }
 
 impl Served {
     pub(crate) fn new() -> Self {
         let bus = VirtualBus::new(Bitrate::Kbit1000);
-        let (tool, side) = (bus.attach(), bus.attach());
-        let device = Device {
-            values: vec![0; 2 + TEXT_CAPACITY + 4],
-            servers: [SdoServer::NEW],
-            buffers: vec![0; TEXT_CAPACITY],
-        };
-        let mut served = Self {
-            bus,
-            tool,
-            side,
-            node: Node::new(device, Settings::default(), NoStorage),
-            domain: Domain(Vec::new()),
-            waiting: None,
-        };
-        served.act();
-        served
+        let node = Node::new(Device(Memory::new([0; VALUES])), Settings::default(), NoStorage);
+        let mut station = Station::new(node, MemoryDevice::default(), bus.attach());
+        station.round().expect("a virtual bus stays");
+        Self { tool: bus.attach(), station, bus }
     }
 
     pub(crate) fn milliseconds(&self) -> u64 {
         self.bus.now().0 / 1_000
-    }
-
-    fn act(&mut self) {
-        let now = self.bus.now();
-        while let Some(received) = self.side.receive().expect("a virtual bus stays") {
-            self.node.receive(now, &received.frame, &mut self.domain);
-        }
-        self.node.poll(now, &mut self.domain);
-        while let Some(frame) = self.waiting.take().or_else(|| self.node.transmit()) {
-            if self.side.send(&frame).is_err() {
-                self.waiting = Some(frame);
-                break;
-            }
-        }
     }
 }
 
@@ -75,55 +46,13 @@ impl Bus for Served {
     }
 
     fn wait(&mut self, deadline: Instant) -> Result<(), BusError> {
-        self.act();
-        let now = self.bus.now();
-        let next = if self.waiting.is_some() { Instant::NEVER } else { self.node.next_deadline(now) };
+        let next = self.station.round()?;
         self.bus.step(deadline.min(next));
-        self.act();
-        Ok(())
+        self.station.round().map(drop)
     }
 }
 
-/// Keeps the bytes of the DOMAIN.
-struct Domain(Vec<u8>);
-
-impl Application for Domain {
-    fn domain_length(&mut self, _: &mut Objects<'_>, _: &Entry) -> Result<Option<u32>, AbortCode> {
-        Ok(Some(self.0.len() as u32))
-    }
-
-    fn read_domain(
-        &mut self,
-        _: &mut Objects<'_>,
-        _: &Entry,
-        offset: u32,
-        buffer: &mut [u8],
-    ) -> Result<usize, AbortCode> {
-        let rest = &self.0[offset as usize..];
-        let count = rest.len().min(buffer.len());
-        buffer[..count].copy_from_slice(&rest[..count]);
-        Ok(count)
-    }
-
-    fn write_domain(
-        &mut self,
-        _: &mut Objects<'_>,
-        _: &Entry,
-        offset: u32,
-        data: &[u8],
-        _: bool,
-    ) -> Result<(), AbortCode> {
-        self.0.truncate(offset as usize);
-        self.0.extend_from_slice(data);
-        Ok(())
-    }
-}
-
-struct Device {
-    values: Vec<u8>,
-    servers: [SdoServer; 1],
-    buffers: Vec<u8>,
-}
+struct Device(Memory<VALUES, 0, 0, 0, 1, 0, TEXT_CAPACITY>);
 
 const BOTH: Flags = Flags::READ.and(Flags::WRITE);
 
@@ -137,7 +66,7 @@ static ENTRIES: [Entry; 4] = [
 static TABLE: Table<'static> = Table {
     entries: &ENTRIES,
     constants: &[0x44, 0x33, 0x22, 0x11],
-    defaults: &[0; 2 + TEXT_CAPACITY + 4],
+    defaults: &[0; VALUES],
     limits: &[],
     dummies: 0,
     fingerprint: 1,
@@ -149,14 +78,6 @@ const fn entry(index: u16, data_type: DataType, flags: Flags, offset: u16, size:
 
 impl Dictionary for Device {
     fn parts(&mut self) -> Parts<'_> {
-        Parts {
-            objects: Objects::new(&TABLE, &mut self.values),
-            rpdos: &mut [],
-            tpdos: &mut [],
-            mapped: &mut [],
-            servers: &mut self.servers,
-            consumers: &mut [],
-            buffers: &mut self.buffers,
-        }
+        self.0.parts(&TABLE)
     }
 }

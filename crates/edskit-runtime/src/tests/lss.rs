@@ -61,6 +61,15 @@ fn a_new_node_id_counts_from_the_next_reset_on() {
 }
 
 #[test]
+fn a_reset_leads_back_to_the_state_waiting() {
+    let mut bench = configured();
+    request(&mut bench, &[4, 1]);
+    assert!(request(&mut bench, &[0x5E]).is_some());
+    bench.nmt(130);
+    assert_eq!(request(&mut bench, &[0x5E]), None);
+}
+
+#[test]
 fn selection_by_identity() {
     let mut bench = configured();
     for wrong in 0..4 {
