@@ -46,13 +46,14 @@ pub(super) enum Verdict {
 }
 
 impl Check<'_> {
-    /// The dictionary of the node, and the transport.
+    /// The dictionary of the node, its file, and the transport.
     pub(super) fn title(&self) -> String {
         let transport = match self.transport {
             Transport::Socketcand => "socketcand",
             Transport::Slcan => "slcan",
         };
-        format!("{} over {transport}", self.node.program.dictionary)
+        let file = self.eds.file_stem().unwrap_or_default().display();
+        format!("{} {file} over {transport}", self.node.program.dictionary)
     }
 
     /// Runs all checks, or one of them.

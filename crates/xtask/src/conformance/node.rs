@@ -9,7 +9,7 @@ use std::process::{Child, Stdio};
 
 pub(super) const NODE_ID: &str = "5";
 
-/// A program that is a node.
+/// A program that is a node. It takes `--node-id` and `--listen`, and prints where it listens.
 #[derive(Clone, Copy)]
 pub(super) struct Program {
     /// What its dictionary is.
@@ -19,17 +19,17 @@ pub(super) struct Program {
     takes_file: bool,
 }
 
-/// Both take `--node-id` and `--listen`, and print where they listen.
-pub(super) const PROGRAMS: [Program; 2] = [
-    Program { dictionary: "loaded", binary: "edskit", takes_file: true },
-    Program { dictionary: "generated", binary: "edskit-tests-device", takes_file: false },
-];
+/// A node that is told at its start which file it is to be.
+pub(super) const LOADED: Program = Program { dictionary: "loaded", binary: "edskit", takes_file: true };
+/// A node whose dictionary is generated.
+pub(super) const GENERATED: Program =
+    Program { dictionary: "generated", binary: "edskit-tests-device", takes_file: false };
 
 /// Builds the programs, the second one with the dictionary of this file.
 pub(super) fn build(eds: &Path) -> Result<(), String> {
     // With the whole workspace, so that no dependency has other features than in the tests and is built again.
     let mut build = cargo(&["build", "--quiet", "--workspace"]);
-    build.args(PROGRAMS.iter().flat_map(|program| ["--bin", program.binary]));
+    build.args([LOADED, GENERATED].iter().flat_map(|program| ["--bin", program.binary]));
     match run(build.env("EDSKIT_DEVICE_EDS", eds)) {
         Outcome::Passed => Ok(()),
         outcome => Err(format!("the nodes cannot be built ({outcome})")),
