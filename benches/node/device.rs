@@ -6,8 +6,8 @@ pub(crate) const NODE_ID: u16 = 1;
 pub(crate) const NUMBER: u16 = 0x2000;
 /// An OCTET_STRING of [`LENGTH`] bytes that clients read.
 pub(crate) const BYTES: u16 = 0x2001;
-/// About 7 kB.
-pub(crate) const LENGTH: usize = 7000;
+/// About 7 kB: not a multiple of 7, since zencan then says a wrong length at the end of a block upload.
+pub(crate) const LENGTH: usize = 7010;
 
 /// What the PDOs of the device carry.
 #[derive(Clone, Copy)]
