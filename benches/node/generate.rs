@@ -21,14 +21,18 @@ pub(crate) fn benches(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// An EDS with so many UNSIGNED32 from 2000h on.
+/// An EDS with so many UNSIGNED32: some of the communication profile, one half of the others from 2000h on, and one half
+/// from 6000h on.
 pub(crate) fn device_of(objects: u16) -> String {
-    let section = |number: u16| {
-        let index = 0x2000 + number;
+    let communication = [0x1000, 0x1001, 0x1005, 0x1006, 0x1014, 0x1017];
+    let others = objects - communication.len() as u16;
+    let manufacturer = 0x2000..0x2000 + others / 2;
+    let profile = 0x6000..0x6000 + others - others / 2;
+    let section = |(number, index): (usize, u16)| {
         format!(
             "[{index:X}]\nParameterName=Parameter {number}\nObjectType=0x7\nDataType=0x0007\nAccessType=rw\n\
-             DefaultValue={number}\nLowLimit=1\nPDOMapping=0\n"
+             DefaultValue={number}\nLowLimit=0\nPDOMapping=0\n"
         )
     };
-    (0..objects).map(section).collect()
+    communication.into_iter().chain(manufacturer).chain(profile).enumerate().map(section).collect()
 }

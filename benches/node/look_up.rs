@@ -12,10 +12,10 @@ const LOOK_UPS: usize = 1000;
 
 pub(crate) fn benches(criterion: &mut Criterion) {
     for size in [100, 1_000, 10_000] {
-        let indices = indices(size);
         let layout = edskit_codegen::parse(device_of(size).as_bytes(), None).expect("it is laid out");
         let table = layout.table();
         assert_eq!(table.entries.len(), usize::from(size));
+        let indices = in_no_order(&layout.entries.iter().map(|entry| entry.index.0).collect::<Vec<_>>());
         let object = CallbackObject::new(ObjectCode::Var);
         let entries: Vec<ODEntry> =
             layout.entries.iter().map(|entry| ODEntry { index: entry.index.0, data: &object }).collect();
@@ -45,12 +45,12 @@ pub(crate) fn benches(criterion: &mut Criterion) {
     }
 }
 
-/// Indices of a device in an order without a pattern.
-fn indices(size: u16) -> Vec<u16> {
+/// As many of these indices as are looked up, in an order without a pattern.
+fn in_no_order(indices: &[u16]) -> Vec<u16> {
     let mut state: u32 = 1;
     let next = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        0x2000 + ((state >> 16) % u32::from(size)) as u16
+        indices[(state >> 16) as usize % indices.len()]
     };
     std::iter::repeat_with(next).take(LOOK_UPS).collect()
 }
