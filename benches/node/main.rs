@@ -1,8 +1,8 @@
 //! The node beside zencan-node 0.0.5: both run dictionaries that were generated for the same device, are driven frame in,
 //! frames out, and are asked to do the same.
 //!
-//! zencan's node is the one of its crate without `std`, with a critical section that costs nothing: on a computer its own
-//! would take a mutex for each value, on a microcontroller it masks interrupts. This is the least that it can cost.
+//! zencan's node enters a critical section for each value. Here that costs nothing, which is the least that it can cost: a
+//! microcontroller masks interrupts. With the feature `zencan-mutex` it is what the crate does on a computer by itself.
 //!
 //! What zencan-node does not have, so that edskit stands alone there: mapping of single bits, and more than 8 mapped
 //! entries. Both are compared with 4 entries of 16 bits and with 8 of 8 bits.

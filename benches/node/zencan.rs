@@ -19,6 +19,7 @@ mod generated {
     zencan_node::include_modules!(BENCH);
 }
 
+#[cfg(not(feature = "zencan-mutex"))]
 #[allow(unsafe_code, reason = "the trait of critical sections is unsafe")]
 mod critical_section {
     use critical_section::{Impl, RawRestoreState};
