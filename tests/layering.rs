@@ -55,7 +55,11 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
         Any,
     ),
     ("edskit-tests-device", &["edskit-codegen", "edskit-runtime", "edskit-host"], Any),
-    ("edskit-benches", &["edskit-types", "edskit-model", "edskit-lint", "edskit-tests"], Any),
+    (
+        "edskit-benches",
+        &["edskit-types", "edskit-model", "edskit-lint", "edskit-runtime", "edskit-codegen", "edskit-tests"],
+        Any,
+    ),
     ("xtask", &[], Any),
 ];
 
@@ -81,8 +85,9 @@ const OUTER_WORDS: &[&str] = &[
 /// The one file of a library that may: it is for build scripts, which read and write files and talk to cargo.
 const BUILD_SCRIPT_FILE: &str = "edskit-codegen/src/compile.rs";
 
-/// The one file that may hold unsafe code: its allocator counts, and an allocator is unsafe by its trait.
-const UNSAFE_FILE: &str = "tests/src/allocation.rs";
+/// The files that may hold unsafe code: a critical section and an allocator are unsafe by their traits, and the code that
+/// zencan-build generates holds some.
+const UNSAFE_FILES: [&str; 2] = ["benches/node/zencan.rs", "tests/src/allocation.rs"];
 
 #[test]
 fn every_crate_depends_only_on_what_the_table_allows() {
@@ -171,7 +176,7 @@ fn crates_for_devices_need_neither_std_nor_an_allocator_nor_other_crates() {
 
 /// The workspace denies unsafe code, so it takes an `allow` to write some.
 #[test]
-fn unsafe_code_stands_in_one_file_only() {
+fn unsafe_code_stands_in_few_files_only() {
     let root = edskit_tests::root();
     let mut found = Vec::new();
     for folder in ["crates", "tests", "benches"] {
@@ -182,7 +187,8 @@ fn unsafe_code_stands_in_one_file_only() {
         }
     }
     found.retain(|path| path != Path::new(file!()));
-    assert_eq!(found, [PathBuf::from(UNSAFE_FILE)]);
+    found.sort();
+    assert_eq!(found, UNSAFE_FILES.map(PathBuf::from));
 }
 
 fn metadata() -> Metadata {

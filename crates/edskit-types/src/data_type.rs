@@ -174,11 +174,9 @@ impl DataType {
 
     /// Whether the type is VISIBLE_STRING, OCTET_STRING or UNICODE_STRING; DOMAIN is not.
     #[must_use]
+    #[inline]
     pub const fn is_string(self) -> bool {
-        matches!(
-            self.kind(),
-            DataTypeKind::VisibleString | DataTypeKind::OctetString | DataTypeKind::UnicodeString
-        )
+        matches!(self, Self::VisibleString | Self::OctetString | Self::UnicodeString)
     }
 
     /// The lowest and the highest value of an integer, or of BOOLEAN (0 and 1); `None` for other types.

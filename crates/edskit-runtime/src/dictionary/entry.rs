@@ -24,19 +24,10 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// The place in the sorted order: the index, then the sub-index.
-    pub(crate) const fn key(&self) -> u32 {
-        key(self.index, self.sub_index)
-    }
-
     /// Whether the value has its present length in front: a text that can change.
     pub(crate) const fn has_length(&self) -> bool {
         self.data_type.is_string() && self.flags.has(Flags::VARIABLE)
     }
-}
-
-pub(crate) const fn key(index: Index, sub_index: SubIndex) -> u32 {
-    (index.0 as u32) << 8 | sub_index.0 as u32
 }
 
 /// Rights on an entry and how it is stored: a set of bits.

@@ -99,7 +99,10 @@ impl<'a> Objects<'a> {
 
     /// The bytes of an entry that can change; none for one that cannot.
     fn bytes_mut(&mut self, position: Position) -> &mut [u8] {
-        let Some(entry) = self.table.entry(position) else { return &mut [] };
+        self.table.entry(position).map_or(&mut [], |entry| self.bytes_of(entry))
+    }
+
+    fn bytes_of(&mut self, entry: &Entry) -> &mut [u8] {
         if !entry.flags.has(Flags::VARIABLE) {
             return &mut [];
         }
@@ -113,7 +116,10 @@ impl<'a> Objects<'a> {
         if !entry.has_length() {
             return offset..offset + usize::from(entry.size);
         }
-        let length = self.values.get(offset..offset + 2).map_or(0, u16::from_bytes);
+        let length = match self.values.get(offset..offset + 2) {
+            Some(&[low, high]) => u16::from_le_bytes([low, high]),
+            _ => 0,
+        };
         let start = offset + 2;
         start..start + usize::from(length.min(entry.size))
     }
@@ -171,8 +177,10 @@ impl<'a> Objects<'a> {
     /// first.
     pub fn store(&mut self, position: Position, data: &[u8]) {
         let Some(entry) = self.table.entry(position) else { return };
-        self.set_length(position, data.len().min(usize::from(entry.size)) as u16);
-        copy(self.bytes_mut(position), data);
+        if entry.has_length() {
+            self.set_length(position, data.len().min(usize::from(entry.size)) as u16);
+        }
+        copy(self.bytes_of(entry), data);
     }
 
     /// Says how many bytes a text has; of other types nothing can be said.

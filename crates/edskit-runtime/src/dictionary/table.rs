@@ -1,6 +1,6 @@
 //! What is fixed about a dictionary, and finding an entry in it.
 
-use super::entry::{Entry, key};
+use super::entry::Entry;
 use edskit_types::{AbortCode, Index, SubIndex};
 
 /// The fixed part of an object dictionary: on a device in flash.
@@ -45,15 +45,21 @@ impl<'a> Table<'a> {
     /// [`AbortCode::OBJECT_DOES_NOT_EXIST`] if there is no entry at the index, and
     /// [`AbortCode::SUB_INDEX_DOES_NOT_EXIST`] if there is none at the sub-index.
     pub fn find(&self, index: Index, sub_index: SubIndex) -> Result<Position, AbortCode> {
-        let wanted = key(index, sub_index);
-        let place = self.first_from(wanted);
-        let next = self.entries.get(place);
-        if next.is_some_and(|entry| entry.key() == wanted) {
-            return Ok(Position(place as u16));
+        let first = self.first_of(index);
+        let object = self.entries.get(first..).unwrap_or_default();
+        // Sub-indices mostly come without a gap, so the entry is as far behind the first one as its sub-index says.
+        let guess = usize::from(sub_index.0);
+        let is_it = |entry: &Entry| entry.index == index && entry.sub_index == sub_index;
+        if object.get(guess).is_some_and(is_it) {
+            return Ok(Position((first + guess) as u16));
         }
-        let before = place.checked_sub(1).and_then(|place| self.entries.get(place));
-        let is_there = [next, before].into_iter().flatten().any(|entry| entry.index == index);
-        Err(if is_there { AbortCode::SUB_INDEX_DOES_NOT_EXIST } else { AbortCode::OBJECT_DOES_NOT_EXIST })
+        match object.iter().take_while(|entry| entry.index == index).position(is_it) {
+            Some(offset) => Ok(Position((first + offset) as u16)),
+            None if object.first().is_some_and(|entry| entry.index == index) => {
+                Err(AbortCode::SUB_INDEX_DOES_NOT_EXIST)
+            }
+            None => Err(AbortCode::OBJECT_DOES_NOT_EXIST),
+        }
     }
 
     /// The entry at a position.
@@ -72,15 +78,15 @@ impl<'a> Table<'a> {
         &self,
         index: Index,
     ) -> impl Iterator<Item = (Position, &'a Entry)> + Clone + use<'a> {
-        let first = self.first_from(key(index, SubIndex(0)));
+        let first = self.first_of(index);
         let entries = self.entries.get(first..).unwrap_or_default();
         entries.iter().enumerate().map(move |(offset, entry)| (Position((first + offset) as u16), entry))
     }
 
-    /// The place of the first entry whose key is not lower.
+    /// The place of the first entry whose index is not lower.
     #[inline(never)]
-    fn first_from(&self, wanted: u32) -> usize {
-        self.entries.partition_point(|entry| entry.key() < wanted)
+    fn first_of(&self, index: Index) -> usize {
+        self.entries.partition_point(|entry| entry.index < index)
     }
 
     /// Every entry with its position.
@@ -100,6 +106,9 @@ impl<'a> Table<'a> {
 mod tests {
     use super::*;
     use crate::dictionary::{Flags, testing::entry};
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+    use std::vec::Vec;
 
     #[test]
     fn what_is_missing_says_so() {
@@ -123,6 +132,37 @@ mod tests {
         }
         let of = |index| table.entries_of(Index(index)).count();
         assert_eq!([of(0x1000), of(0x1018), of(0x1001)], [1, 3, 0]);
+    }
+
+    proptest! {
+        #[test]
+        fn every_entry_is_found_where_it_is(
+            runs in proptest::collection::vec((any::<u16>(), any::<u8>(), 0..300_u16), 0..5),
+            others in proptest::collection::vec((any::<u16>(), any::<u8>()), 0..40),
+        ) {
+            let runs = runs.into_iter().flat_map(|(first, sub_index, count)| {
+                (first..first.saturating_add(count)).map(move |index| (index, sub_index))
+            });
+            let places: BTreeSet<(u16, u8)> = runs.chain(others.iter().copied()).collect();
+            let entries: Vec<Entry> = places.iter().map(|(index, sub_index)| entry(*index, *sub_index)).collect();
+            let table = Table {
+                entries: &entries,
+                constants: &[],
+                defaults: &[],
+                limits: &[],
+                dummies: 0,
+                fingerprint: 0,
+            };
+            for (place, entry) in entries.iter().enumerate() {
+                prop_assert_eq!(table.find(entry.index, entry.sub_index), Ok(Position(place as u16)));
+            }
+            for (index, sub_index) in others {
+                let index = index.wrapping_add(1);
+                let place = places.iter().position(|place| *place == (index, sub_index));
+                let found = table.find(Index(index), SubIndex(sub_index)).ok();
+                prop_assert_eq!(found, place.map(|place| Position(place as u16)));
+            }
+        }
     }
 
     #[test]

@@ -76,14 +76,17 @@ impl Value for f64 {
 #[inline(never)]
 pub(crate) fn raw(bytes: &[u8], is_signed: bool) -> u64 {
     let is_negative = is_signed && bytes.last().is_some_and(|byte| byte & 0x80 != 0);
-    let mut all = [if is_negative { 0xFF } else { 0 }; 8];
-    copy(&mut all, bytes);
-    u64::from_le_bytes(all)
+    let above = if is_negative { u64::MAX } else { 0 };
+    // Almost every value is shorter than eight bytes: a call that copies them costs more than these steps.
+    bytes.iter().take(size_of::<u64>()).rev().fold(above, |bits, byte| bits << 8 | u64::from(*byte))
 }
 
 #[inline(never)]
-fn write_raw(bits: u64, bytes: &mut [u8]) {
-    copy(bytes, &bits.to_le_bytes());
+fn write_raw(mut bits: u64, bytes: &mut [u8]) {
+    for byte in bytes.iter_mut().take(size_of::<u64>()) {
+        *byte = bits as u8;
+        bits >>= 8;
+    }
 }
 
 /// Copies as many bytes as both have. Unlike `copy_from_slice` it cannot panic.

@@ -85,7 +85,7 @@ impl Builder {
     }
 
     pub(super) fn build(mut self) -> Device {
-        self.0.sort_by_key(|draft| draft.entry.key());
+        self.0.sort_by_key(|draft| (draft.entry.index, draft.entry.sub_index));
         let (mut constants, mut defaults, mut limits) = (Vec::new(), Vec::new(), Vec::new());
         let mut entries = Vec::new();
         for (position, mut draft) in self.0.into_iter().enumerate() {
