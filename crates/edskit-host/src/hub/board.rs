@@ -49,9 +49,16 @@ impl Board {
         Seat(self.next_seat.fetch_add(1, Ordering::Relaxed))
     }
 
-    /// From now on `inbox` gets the frames of all others.
-    pub(crate) fn join(&self, seat: Seat, inbox: Arc<dyn Inbox>, takes_remote_frames: bool) {
+    /// From now on `inbox` gets the frames of all others. No frame comes between what `before` does and that.
+    pub(crate) fn join(
+        &self,
+        seat: Seat,
+        inbox: Arc<dyn Inbox>,
+        takes_remote_frames: bool,
+        before: impl FnOnce(),
+    ) {
         let mut members = self.members();
+        before();
         if members.iter().all(|member| member.seat != seat) {
             members.push(Member { seat, inbox, takes_remote_frames });
         }
@@ -107,7 +114,7 @@ mod tests {
         let board = Board::default();
         let (sender, reader) = (board.seat(), board.seat());
         let inbox = Arc::new(Queue::<Received>::new(3));
-        board.join(reader, inbox.clone(), false);
+        board.join(reader, inbox.clone(), false, || {});
         for byte in 0..5 {
             board.publish(sender, Frame::new(CanId::NMT, &[byte]));
         }

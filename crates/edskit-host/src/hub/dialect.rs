@@ -24,10 +24,9 @@ pub(crate) trait Dialect: Send {
 pub(crate) enum Answer {
     /// Say this, in a segment of its own.
     Reply(&'static [u8]),
-    /// Say nothing for a while.
-    Pause(Duration),
-    /// The client hears the bus from now on.
-    Join,
+    /// Say this, in a segment of its own, and nothing for a while; from then on the client hears the bus. Who has heard
+    /// the reply misses no frame that is sent afterwards.
+    Join(&'static [u8], Duration),
     /// The client does not hear the bus any more.
     Leave,
     /// The client sends a frame.

@@ -18,7 +18,7 @@ pub struct HubParticipant {
 impl HubParticipant {
     pub(super) fn new(board: &Arc<Board>) -> Self {
         let (seat, inbox) = (board.seat(), Arc::new(Queue::new(MOST_WAITING)));
-        board.join(seat, inbox.clone(), true);
+        board.join(seat, inbox.clone(), true, || {});
         Self { board: Arc::clone(board), seat, inbox, lost: 0 }
     }
 }

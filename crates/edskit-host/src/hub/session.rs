@@ -112,8 +112,10 @@ impl Client {
             let takes_remote_frames = dialect.carries_remote_frames();
             dialect.feed(&bytes[..count], &mut |answer| match answer {
                 Answer::Reply(reply) => drop(outbox.push(Outgoing::Reply(reply))),
-                Answer::Pause(time) => drop(outbox.push(Outgoing::Pause(time))),
-                Answer::Join => board.join(*seat, outbox.clone(), takes_remote_frames),
+                Answer::Join(reply, pause) => board.join(*seat, outbox.clone(), takes_remote_frames, || {
+                    outbox.push(Outgoing::Reply(reply));
+                    outbox.push(Outgoing::Pause(pause));
+                }),
                 Answer::Leave => board.leave(*seat),
                 Answer::Frame(frame) => board.publish(*seat, frame),
             });

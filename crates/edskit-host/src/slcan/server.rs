@@ -3,6 +3,7 @@
 use super::{Line, Lines, decode, encode};
 use crate::Received;
 use crate::hub::{Answer, Dialect};
+use std::time::Duration;
 
 const OK: &[u8] = b"\r";
 const ERROR: &[u8] = b"\x07";
@@ -50,8 +51,7 @@ fn obey(channel: &mut Channel, text: &[u8], answer: &mut dyn FnMut(Answer)) {
     let reply: &[u8] = match text {
         b"O" | b"L" => {
             *channel = if text == b"O" { Channel::Open } else { Channel::ListenOnly };
-            answer(Answer::Reply(OK));
-            return answer(Answer::Join);
+            return answer(Answer::Join(OK, Duration::ZERO));
         }
         b"C" => {
             *channel = Channel::Closed;

@@ -28,13 +28,10 @@ impl Dialect for Server {
         let is_raw = &mut self.is_raw;
         self.commands.feed(bytes, |words| match words {
             [b"open", ..] if !*is_raw => answer(Answer::Reply(b"< ok >")),
+            [b"rawmode", ..] if *is_raw => answer(Answer::Reply(b"< ok >")),
             [b"rawmode", ..] => {
-                answer(Answer::Reply(b"< ok >"));
-                if !*is_raw {
-                    answer(Answer::Pause(HOLD_BACK));
-                    answer(Answer::Join);
-                    *is_raw = true;
-                }
+                answer(Answer::Join(b"< ok >", HOLD_BACK));
+                *is_raw = true;
             }
             [b"echo", ..] => answer(Answer::Reply(b"< echo >")),
             [b"send", id, length, data @ ..] if *is_raw => {

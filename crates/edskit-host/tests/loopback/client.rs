@@ -58,6 +58,17 @@ fn frames_of_all_kinds_go_both_ways() {
 }
 
 #[test]
+fn who_is_connected_misses_no_frame() {
+    let hub = hub();
+    let mut device = hub.attach();
+    for number in 0..30 {
+        let (mut socketcand, mut slcan) = clients(&hub);
+        device.send(&frame(7, &[number])).unwrap();
+        assert_eq!((next(&mut socketcand), next(&mut slcan)), (frame(7, &[number]), frame(7, &[number])));
+    }
+}
+
+#[test]
 fn a_lost_connection_is_said_once_and_made_again() {
     let first = hub();
     let options = HubOptions { socketcand: first.socketcand_address(), slcan: first.slcan_address() };
