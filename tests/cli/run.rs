@@ -15,8 +15,10 @@ fn what_cannot_be_run() {
         "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n\
          [1A00sub1]\nDataType=7\nDefaultValue=0x20000010\n[2000]\nDataType=6 ; UNSIGNED16\nAccessType=ro\n",
     );
+    let wrong: String = (0x2000..0x2030).map(|index| format!("[{index:X}]\nDataType=6\n")).collect();
+    let wrong = folder.write("wrong.eds", &wrong);
     let nobody = "socketcand:127.0.0.1:1/can0";
-    let cases: [(&str, &[&str]); 7] = [
+    let cases: [(&str, &[&str]); 8] = [
         ("missing", &["nowhere.eds"]),
         ("nothing", &[&empty]),
         ("side_file", &[&with_side_file]),
@@ -24,6 +26,7 @@ fn what_cannot_be_run() {
         ("node_id", &[&good, "--node-id", "128"]),
         ("nobody", &[&good, "--bus", nobody]),
         ("incomplete", &[&incomplete, "--bus", nobody]),
+        ("many_warnings", &[&wrong, "--bus", nobody]),
     ];
     for (name, arguments) in cases {
         let output = edskit(&[&["run"], arguments].concat());

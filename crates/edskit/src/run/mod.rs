@@ -15,6 +15,9 @@ use edskit_types::NodeId;
 use std::io;
 use std::path::Path;
 
+/// How many warnings are printed: the node is what was asked for.
+const MOST_WARNINGS: usize = 20;
+
 pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
     let Loaded { layout, commissioned, naming } = match load(&arguments.file) {
         Ok(loaded) => loaded,
@@ -25,7 +28,12 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
             return Ok(Exit::Failed);
         }
     };
-    print_problems(&warnings_of(&layout), &naming, streams)?;
+    let warnings = warnings_of(&layout);
+    let (shown, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
+    print_problems(shown, &naming, streams)?;
+    if !others.is_empty() {
+        writeln!(streams.stderr, "and {} warnings more", others.len())?;
+    }
     let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
     let log = Log::new(arguments.log);
     // The hub lives as long as the node.
