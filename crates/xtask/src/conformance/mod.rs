@@ -11,7 +11,6 @@ use crate::step::Outcome;
 use check::{Check, Transport, Verdict};
 use node::{Node, Program};
 use std::path::Path;
-use std::thread;
 
 const VENV: &str = "target/conformance-venv";
 const REQUIREMENTS: &str = "tests/conformance/requirements.txt";
@@ -54,18 +53,10 @@ pub(crate) fn of_nodes() -> Outcome {
         Subject { program: node::GENERATED, eds: &full, transports: both, is_complete: false },
         Subject { program: node::LOADED, eds: &everything, transports: only_slcan, is_complete: true },
     ];
-    // The check waits most of the time, so all nodes are checked at once.
-    let outcomes: Vec<Result<(), String>> = thread::scope(|scope| {
-        let threads = subjects.each_ref().map(|subject| scope.spawn(|| judge_all(subject, &python, &script)));
-        let join = |thread: thread::ScopedJoinHandle<'_, _>| {
-            thread.join().unwrap_or_else(|_| Err("a thread has panicked".to_owned()))
-        };
-        threads.into_iter().map(join).collect()
-    });
-    match outcomes.into_iter().filter_map(Result::err).collect::<Vec<_>>() {
-        problems if problems.is_empty() => Outcome::Passed,
-        problems => Outcome::Failed(problems.join("; ")),
-    }
+    // One after the other: the check measures times of milliseconds, which several at once would disturb.
+    let problems: Vec<String> =
+        subjects.iter().filter_map(|subject| judge_all(subject, &python, &script).err()).collect();
+    if problems.is_empty() { Outcome::Passed } else { Outcome::Failed(problems.join("; ")) }
 }
 
 fn judge_all(subject: &Subject<'_>, python: &Path, script: &Path) -> Result<(), String> {
