@@ -18,7 +18,14 @@ impl<'a> Context<'a> {
     ) -> Result<(Position, &'a Entry), AbortCode> {
         let position = self.objects.table.find(index, sub_index)?;
         let entry = self.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
-        if self.exists(entry) { Ok((position, entry)) } else { Err(AbortCode::OBJECT_DOES_NOT_EXIST) }
+        if self.exists(entry) { Ok((position, entry)) } else { Err(self.absence(index)) }
+    }
+
+    /// What is missing where an entry of an object does not exist in the present configuration.
+    fn absence(&mut self, index: Index) -> AbortCode {
+        let table = self.objects.table;
+        let has_entries = table.entries_of(index).any(|(_, entry)| self.exists(entry));
+        if has_entries { AbortCode::SUB_INDEX_DOES_NOT_EXIST } else { AbortCode::OBJECT_DOES_NOT_EXIST }
     }
 
     /// A client is about to read an entry.
@@ -35,7 +42,7 @@ impl<'a> Context<'a> {
 
     /// A client writes an entry.
     pub(crate) fn write(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
-        self.objects.check_write(entry, Some(data.len()))?;
+        self.app.check_write(&self.objects, entry, Some(data.len()))?;
         self.objects.check_value(position, entry, data)?;
         self.check_communication_object(position, entry, data)?;
         self.app.before_write(&mut self.objects, entry, data)?;

@@ -1,6 +1,6 @@
 //! What a device adds to CiA 301, and where it differs.
 
-use crate::{Emergency, Entry, Objects};
+use crate::{Emergency, Entry, Microseconds, Objects};
 use edskit_types::{AbortCode, Bitrate, Index, NmtState, NodeId, SubIndex};
 
 /// The device behind a node. Every method has the behaviour of CiA 301 as its default, so a device implements what it
@@ -35,6 +35,20 @@ pub trait Application {
     /// An SDO client has written an entry.
     fn after_write(&mut self, objects: &mut Objects<'_>, entry: &Entry) {
         let _ = (objects, entry);
+    }
+
+    /// Whether an SDO client may write so many bytes of an entry that exists; `None` while it has not said how many. The
+    /// place for a manual that checks in another order than CiA 301 servers do.
+    ///
+    /// # Errors
+    /// The abort code that the client gets; by default those of [`Objects::check_write`].
+    fn check_write(
+        &mut self,
+        objects: &Objects<'_>,
+        entry: &Entry,
+        length: Option<usize>,
+    ) -> Result<(), AbortCode> {
+        objects.check_write(entry, length)
     }
 
     /// Whether an entry with [`Flags::OPTIONAL`](crate::Flags::OPTIONAL) exists in the present configuration.
@@ -99,6 +113,28 @@ pub trait Application {
     /// 1FFFh.
     fn reset(&mut self, objects: &mut Objects<'_>, reset: Reset) {
         let _ = (objects, reset);
+    }
+
+    /// Whether the node may boot up after a reset. Until the device is ready the node stays in initialising, sends and
+    /// takes nothing, and asks again at each [`Node::poll`](crate::Node::poll), whose time is then up to the device.
+    ///
+    /// It is asked right after [`reset`](Self::reset), and it is the place to give the dictionary what the services are
+    /// to be configured with.
+    fn is_ready(&mut self, objects: &mut Objects<'_>) -> bool {
+        let _ = objects;
+        true
+    }
+
+    /// The time between two heartbeats that a value of 1017h leads to: the place for timers that are coarser than 1 ms.
+    fn heartbeat_time(&mut self, configured: Microseconds) -> Microseconds {
+        configured
+    }
+
+    /// Whether a TPDO, numbered from 1, is sent when the node enters operational. By default it is, unless it waits for a
+    /// SYNC message or a request.
+    fn sends_at_start(&mut self, number: u16) -> bool {
+        let _ = number;
+        true
     }
 
     /// A SYNC message has arrived, with its counter where it has one.

@@ -22,6 +22,8 @@ pub(crate) struct Core {
     pub(crate) state: NmtState,
     /// Whether the first initialisation is done.
     pub(crate) has_started: bool,
+    /// Whether the device holds the boot-up back.
+    pub(crate) is_held: bool,
     pub(crate) queue: Queue,
     pub(crate) emcy: Emcy,
     pub(crate) producer: Producer,
@@ -55,7 +57,7 @@ impl Context<'_> {
         }
         match can_id.raw() {
             0 => self.nmt_command(frame),
-            0x7E5 => self.lss_request(frame),
+            0x7E5 if self.core.settings.has_lss => self.lss_request(frame),
             0x701..=0x77F if frame.is_remote() => self.guarding_request(can_id),
             0x701..=0x77F => self.heartbeat_received(can_id, frame),
             _ => self.receive_configured(can_id, frame),
@@ -81,6 +83,11 @@ impl Context<'_> {
     pub(crate) fn poll(&mut self) {
         if !self.core.has_started {
             self.power_on();
+        } else if self.core.is_held {
+            self.boot_up();
+        }
+        if self.core.is_held {
+            return;
         }
         if self.core.queue.take_overflow() {
             self.raise(crate::Error::CAN_OVERRUN, 0, [0; 5]);
@@ -101,6 +108,9 @@ impl Context<'_> {
     pub(crate) fn next_deadline(&self) -> Instant {
         if !self.core.has_started {
             return self.now;
+        }
+        if self.core.is_held {
+            return Instant::NEVER;
         }
         let has_room = self.core.queue.room() > 0;
         let services = [

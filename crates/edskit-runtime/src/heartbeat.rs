@@ -56,9 +56,9 @@ impl HeartbeatConsumer {
 }
 
 impl Context<'_> {
-    pub(crate) fn heartbeat_time(&self) -> Microseconds {
+    pub(crate) fn heartbeat_time(&mut self) -> Microseconds {
         let milliseconds: u16 = self.objects.value(Index::PRODUCER_HEARTBEAT, 0).unwrap_or_default();
-        Microseconds::from_milliseconds(milliseconds.into())
+        self.app.heartbeat_time(Microseconds::from_milliseconds(milliseconds.into()))
     }
 
     /// 1017h has been written: the first heartbeat comes at once.

@@ -56,7 +56,8 @@ impl Context<'_> {
         self.app.state_changed(&mut self.objects, from, to);
     }
 
-    /// Resets the node or its communication, and boots up with the node-ID that is configured.
+    /// Resets the node or its communication, and boots up with the node-ID that is configured as soon as the device is
+    /// ready.
     pub(crate) fn initialise(&mut self, reset: Reset) {
         let from = self.core.state;
         self.core.state = NmtState::Initialising;
@@ -72,8 +73,17 @@ impl Context<'_> {
         self.core.lss.restart();
         self.load_parameters(is_reset);
         self.app.reset(&mut self.objects, reset);
+        self.boot_up();
+    }
+
+    /// Boots up, unless the device is not ready for it or there is no node-ID.
+    pub(crate) fn boot_up(&mut self) {
+        self.core.is_held = !self.app.is_ready(&mut self.objects);
+        if self.core.is_held {
+            return;
+        }
         self.configure();
-        let Some(node_id) = node_id else { return };
+        let Some(node_id) = self.core.node_id else { return };
         self.core.queue.send(error_control(node_id), &[NmtState::Initialising.code()]);
         self.enter_pre_operational();
         if self.starts_by_itself() {
@@ -83,7 +93,8 @@ impl Context<'_> {
 
     fn enter_pre_operational(&mut self) {
         self.core.state = NmtState::PreOperational;
-        self.core.producer = Producer::started(self.now, self.heartbeat_time());
+        let period = self.heartbeat_time();
+        self.core.producer = Producer::started(self.now, period);
         self.app.state_changed(&mut self.objects, NmtState::Initialising, NmtState::PreOperational);
     }
 

@@ -22,12 +22,22 @@ pub struct Settings {
     pub starts_by_itself: bool,
     /// The bit rates that LSS may configure.
     pub bit_rates: &'static [Bitrate],
+    /// Whether the node is an LSS slave (CiA 305).
+    pub has_lss: bool,
+    /// Whether its SDO servers know block transfer, which is optional in CiA 301.
+    pub has_block_transfer: bool,
 }
 
 impl Default for Settings {
-    /// Node-ID 1, no self-start, every bit rate.
+    /// Node-ID 1, no self-start, every bit rate, LSS and block transfer.
     fn default() -> Self {
-        Self { node_id: Some(NodeId::MIN), starts_by_itself: false, bit_rates: Bitrate::ALL }
+        Self {
+            node_id: Some(NodeId::MIN),
+            starts_by_itself: false,
+            bit_rates: Bitrate::ALL,
+            has_lss: true,
+            has_block_transfer: true,
+        }
     }
 }
 
@@ -52,6 +62,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             pending_node_id: None,
             state: NmtState::Initialising,
             has_started: false,
+            is_held: false,
             queue: Queue::new(),
             emcy: Emcy::new(),
             producer: Producer::OFF,
@@ -81,7 +92,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
 
     /// Takes a frame from the bus. Frames before the first [`poll`](Node::poll) are lost, as before power-on.
     pub fn receive(&mut self, now: Instant, frame: &impl embedded_can::Frame, app: &mut dyn Application) {
-        if self.core.has_started {
+        if self.core.has_started && !self.core.is_held {
             self.context(now, app).receive(&Frame::of(frame));
         }
     }
@@ -120,6 +131,14 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     /// Resets the node, as the NMT master could.
     pub fn reset(&mut self, now: Instant, reset: Reset, app: &mut dyn Application) {
         self.context(now, app).initialise(reset);
+    }
+
+    /// Leads the node to another state, as the NMT master could. Nothing happens while it is initialising, and
+    /// [`NmtState::Initialising`] cannot be entered in this way: see [`reset`](Node::reset).
+    pub fn enter(&mut self, now: Instant, state: NmtState, app: &mut dyn Application) {
+        if state != NmtState::Initialising {
+            self.context(now, app).enter(state);
+        }
     }
 
     /// An error of the device has occurred: it is told by an EMCY message, unless it is present already. `source` tells

@@ -102,7 +102,7 @@ impl Context<'_> {
     pub(crate) fn start_pdos(&mut self) {
         let now = self.now;
         for tpdo in self.tpdos.iter_mut() {
-            tpdo.is_due = true;
+            tpdo.is_due = self.app.sends_at_start(tpdo.parameters.number);
             tpdo.inhibit = Timer::OFF;
             tpdo.syncs = 0;
             tpdo.waits_for_start = tpdo.sync_start > 0;

@@ -93,7 +93,7 @@ impl<'a> Context<'a> {
     /// Opens an entry for writing so many bytes; `None` where the client does not say how many.
     pub(super) fn open_target(&mut self, item: &mut Item, announced: Option<u32>) -> Result<(), AbortCode> {
         let (position, entry) = self.open(item.index, item.sub_index)?;
-        self.objects.check_write(entry, announced.map(|length| length as usize))?;
+        self.app.check_write(&self.objects, entry, announced.map(|length| length as usize))?;
         item.position = position;
         item.origin = if entry.data_type == DataType::Domain { Origin::Domain } else { Origin::Buffer };
         item.length = announced;

@@ -225,11 +225,12 @@ impl Context<'_> {
     /// A request that does not belong to a running transfer: it begins one, and ends the one that runs without a word.
     fn begin_transfer(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
         let [command, ..] = *request;
+        let has_blocks = self.core.settings.has_block_transfer;
         match command & COMMAND {
             0x20 => self.begin_download(number, session, request),
             0x40 => self.begin_upload(number, session),
-            0xA0 if command & 3 == 0 => self.begin_block_upload(number, session, request),
-            0xC0 if command & 1 == 0 => self.begin_block_download(number, session, request),
+            0xA0 if command & 3 == 0 && has_blocks => self.begin_block_upload(number, session, request),
+            0xC0 if command & 1 == 0 && has_blocks => self.begin_block_download(number, session, request),
             _ => Err(AbortCode::UNKNOWN_COMMAND),
         }
     }

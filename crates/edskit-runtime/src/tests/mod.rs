@@ -1,6 +1,7 @@
 //! A whole node on an imagined bus.
 
 mod device;
+mod device_hooks;
 mod emergencies;
 mod error_control;
 mod hostile;
