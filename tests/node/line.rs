@@ -4,14 +4,14 @@ use edskit_codegen::{Layout, LoadedDictionary};
 use edskit_host::{
     Bus, BusError, Event, MemoryDevice, MemoryStorage, Participant, Received, SendError, Station, VirtualBus,
 };
-use edskit_runtime::{Frame, Instant, Node, Settings};
+use edskit_runtime::{Frame, Instant, Node, NodeDevice, Settings};
 use edskit_types::{Bitrate, NodeId};
 
 /// The client's end of the bus. While the client waits, the node at the other end works.
 pub(crate) struct Line<'a> {
     bus: VirtualBus,
     client: Participant,
-    station: Station<LoadedDictionary<'a>, MemoryStorage, MemoryDevice, Participant>,
+    station: Station<NodeDevice<LoadedDictionary<'a>, MemoryStorage, MemoryDevice>, Participant>,
 }
 
 impl<'a> Line<'a> {
@@ -20,7 +20,7 @@ impl<'a> Line<'a> {
         let bus = VirtualBus::new(Bitrate::Kbit1000);
         let settings = Settings { node_id: Some(node_id), ..Settings::default() };
         let node = Node::new(LoadedDictionary::new(layout), settings, MemoryStorage::default());
-        let station = Station::new(node, MemoryDevice::default(), bus.attach());
+        let station = Station::new(NodeDevice { node, application: MemoryDevice::default() }, bus.attach());
         Self { client: bus.attach(), station, bus }
     }
 }
@@ -42,7 +42,7 @@ impl Bus for Line<'_> {
     fn wait(&mut self, deadline: Instant) -> Result<(), BusError> {
         let next = self.station.round()?;
         // What nobody reads must not pile up.
-        drop(self.station.device.take_events());
+        drop(self.station.device.application.take_events());
         self.bus.step(deadline.min(next));
         self.station.round().map(drop)
     }

@@ -13,7 +13,7 @@
 //! [`open`] makes a bus of an [`Address`]. Around any bus go decorators: [`Trace`], [`Loss`], [`Duplication`],
 //! [`Delay`] and [`BusOff`]. An SDO client is in [`sdo`].
 //!
-//! A [`Station`] is a node on a bus; [`MemoryDevice`] and [`MemoryStorage`] are a device that has nothing behind it.
+//! A [`Station`] is a device on a bus; [`MemoryDevice`] and [`MemoryStorage`] are a device that has nothing behind it.
 //!
 //! The crate prints nothing. What a person should hear of comes as an [`Event`].
 //!

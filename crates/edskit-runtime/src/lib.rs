@@ -9,6 +9,7 @@
 //! | the node, and what drives it | [`Node`], [`Settings`], [`Frame`], [`Instant`] |
 //! | the object dictionary | [`Dictionary`], [`Objects`], [`Handle`], [`Table`], [`Entry`], [`Flags`] |
 //! | what a device adds | [`Application`], [`Storage`] |
+//! | what a main loop drives | [`Device`], [`NodeDevice`] |
 //! | errors | [`Error`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
 //!
@@ -85,6 +86,7 @@ mod access;
 mod application;
 mod context;
 mod crc;
+mod device;
 mod dictionary;
 mod emcy;
 mod error_behaviour;
@@ -105,6 +107,7 @@ mod time_stamp;
 
 pub use application::{Application, NoApplication, Reset, TimeOfDay};
 pub use crc::Crc;
+pub use device::{Device, NodeDevice};
 pub use dictionary::{
     Dictionary, Entry, Flags, Handle, Limits, Memory, Objects, Parts, Position, StorageGroup, Table, Value,
 };

@@ -76,6 +76,8 @@ pub enum Record {
     Lss,
     /// The values of a group.
     Values(StorageGroup),
+    /// What a device keeps besides its dictionary, by a number of its own. The node knows nothing of it.
+    Device(u8),
 }
 
 /// A device without such memory: nothing is ever stored, and saving fails.

@@ -5,7 +5,7 @@
 
 use edskit_host::{Bus, Hub, HubOptions, MemoryDevice, MemoryStorage, Station};
 use edskit_runtime::types::NodeId;
-use edskit_runtime::{Node, Settings};
+use edskit_runtime::{Node, NodeDevice, Settings};
 use std::env;
 use std::error::Error;
 use std::io::{self, Write};
@@ -30,11 +30,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let settings = Settings { node_id: Some(node_id), ..Settings::default() };
     let node = Node::new(device::Dictionary::new(), settings, MemoryStorage::default());
-    let mut station = Station::new(node, MemoryDevice::default(), hub.attach());
+    let mut station = Station::new(NodeDevice { node, application: MemoryDevice::default() }, hub.attach());
     loop {
         let deadline = station.round()?;
         // Nobody asks what happens, so nothing of it is kept.
-        drop(station.device.take_events());
+        drop(station.device.application.take_events());
         station.bus.wait(deadline)?;
     }
 }

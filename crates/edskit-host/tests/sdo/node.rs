@@ -2,7 +2,7 @@
 
 use edskit_host::{Bus, BusError, MemoryDevice, Participant, Received, SendError, Station, VirtualBus};
 use edskit_runtime::{
-    Dictionary, Entry, Flags, Frame, Instant, Memory, NoStorage, Node, Parts, Settings, Table,
+    Dictionary, Entry, Flags, Frame, Instant, Memory, NoStorage, Node, NodeDevice, Parts, Settings, Table,
 };
 use edskit_types::{Bitrate, DataType, Index, SubIndex};
 
@@ -15,14 +15,15 @@ const VALUES: usize = 2 + TEXT_CAPACITY + 4;
 pub(crate) struct Served {
     bus: VirtualBus,
     tool: Participant,
-    station: Station<Device, NoStorage, MemoryDevice, Participant>,
+    station: Station<NodeDevice<Device, NoStorage, MemoryDevice>, Participant>,
 }
 
 impl Served {
     pub(crate) fn new() -> Self {
         let bus = VirtualBus::new(Bitrate::Kbit1000);
         let node = Node::new(Device(Memory::new([0; VALUES])), Settings::default(), NoStorage);
-        let mut station = Station::new(node, MemoryDevice::default(), bus.attach());
+        let mut station =
+            Station::new(NodeDevice { node, application: MemoryDevice::default() }, bus.attach());
         station.round().expect("a virtual bus stays");
         Self { tool: bus.attach(), station, bus }
     }

@@ -10,7 +10,7 @@ use edskit_codegen::{Layout, LoadedDictionary, Naming, Problem, SideFile, lay_ou
 use edskit_host::{Address, Bus, BusError, Hub, MemoryDevice, MemoryStorage, Station, open};
 use edskit_lint::{FileKind, Severity};
 use edskit_model::{Datasheet, Document, Field};
-use edskit_runtime::{Node, Settings};
+use edskit_runtime::{Node, NodeDevice, Settings};
 use edskit_types::NodeId;
 use std::io;
 use std::path::Path;
@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     log::node(&log, streams, node_id, layout.product.as_deref())?;
     let settings = Settings { node_id: Some(node_id), ..Settings::default() };
     let node = Node::new(LoadedDictionary::new(&layout), settings, MemoryStorage::default());
-    let mut station = Station::new(node, MemoryDevice::default(), bus);
+    let mut station = Station::new(NodeDevice { node, application: MemoryDevice::default() }, bus);
     while !stop.is_asked() {
         let deadline = match station.round() {
             Ok(deadline) => deadline,
@@ -63,7 +63,7 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
         while let Some(event) = station.bus.event() {
             log.bus(streams, &event)?;
         }
-        for event in station.device.take_events() {
+        for event in station.device.application.take_events() {
             log::device(&log, streams, &event)?;
         }
         let patience = station.bus.now() + PATIENCE;
