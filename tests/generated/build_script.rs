@@ -67,7 +67,7 @@ fn the_device_of_the_page_is_built_and_runs() {
     packages.write("pump/eds/Pump.toml", &side_file.replace("\"1017\" =", "\"1019\" ="));
     let output = packages.cargo(&["clippy"]);
     assert!(output.status.success(), "{}", packages.clean(&output));
-    let warning = "warning: pump@0.0.0: eds/Pump.toml:17:1: GEN the dictionary has no such entry";
+    let warning = "warning: pump@0.0.0: eds/Pump.toml:23:1: GEN the dictionary has no such entry";
     assert!(packages.clean(&output).contains(warning), "{}", packages.clean(&output));
 
     let eds = eds().replace("0x20020020", "0x20030020").replace("DataType=0x0018", "DataType=0x0999");

@@ -27,6 +27,8 @@ pub struct SideFile {
     capacity: Vec<Said<u16>>,
     unit: Vec<Said<String>>,
     optional: Vec<Said<()>>,
+    variable: Vec<Said<()>>,
+    rpdo: Vec<Said<()>>,
     extra: Vec<Extra>,
 }
 
@@ -98,6 +100,18 @@ impl SideFile {
         narrowest(&self.optional, index, sub_index).is_some()
     }
 
+    /// Whether the device changes the value of an entry, whatever the EDS says.
+    #[must_use]
+    pub fn is_variable(&self, index: Index, sub_index: SubIndex) -> bool {
+        narrowest(&self.variable, index, sub_index).is_some()
+    }
+
+    /// Whether RPDOs write an entry, though clients may not.
+    #[must_use]
+    pub fn is_received(&self, index: Index, sub_index: SubIndex) -> bool {
+        narrowest(&self.rpdo, index, sub_index).is_some()
+    }
+
     /// Entries that the EDS does not describe.
     pub(crate) fn extras(&self) -> &[Extra] {
         &self.extra
@@ -108,8 +122,9 @@ impl SideFile {
         let storage = self.storage.iter().map(|said| (&said.places, said.span));
         let capacity = self.capacity.iter().map(|said| (&said.places, said.span));
         let unit = self.unit.iter().map(|said| (&said.places, said.span));
-        let optional = self.optional.iter().map(|said| (&said.places, said.span));
-        let all = storage.chain(capacity).chain(unit).chain(optional);
+        let flags = [&self.optional, &self.variable, &self.rpdo].into_iter().flatten();
+        let flags = flags.map(|said| (&said.places, said.span));
+        let all = storage.chain(capacity).chain(unit).chain(flags);
         all.filter(|(places, _)| !has(places)).map(|(_, span)| span).collect()
     }
 }
@@ -132,6 +147,10 @@ type Complaint = (Range<usize>, String);
 struct Raw {
     #[serde(default)]
     optional: Vec<Spanned<String>>,
+    #[serde(default)]
+    variable: Vec<Spanned<String>>,
+    #[serde(default)]
+    rpdo: Vec<Spanned<String>>,
     #[serde(default)]
     storage: BTreeMap<Spanned<String>, Spanned<RawGroup>>,
     #[serde(default)]
@@ -163,13 +182,17 @@ struct RawExtra {
 
 impl Raw {
     fn check(self, text: &str) -> Result<SideFile, Complaint> {
-        let optional = self.optional.iter().map(|places| said(places, ()));
+        let flags = |places: &[Spanned<String>]| {
+            places.iter().map(|places| said(places, ())).collect::<Result<Vec<_>, _>>()
+        };
         let storage = self.storage.iter().map(|(places, group)| said(places, check_group(group)?));
         let capacity = self.capacity.into_iter().map(|(places, capacity)| said(&places, capacity));
         let unit = self.unit.into_iter().map(|(places, unit)| said(&places, unit));
         Ok(SideFile {
             text: text.to_owned(),
-            optional: optional.collect::<Result<_, _>>()?,
+            optional: flags(&self.optional)?,
+            variable: flags(&self.variable)?,
+            rpdo: flags(&self.rpdo)?,
             storage: storage.collect::<Result<_, _>>()?,
             capacity: capacity.collect::<Result<_, _>>()?,
             unit: unit.collect::<Result<_, _>>()?,
@@ -256,6 +279,12 @@ mod tests {
             line("[unit]\n'20000' = 'V'\n"),
             "a.toml:2:1: GEN `20000` names no entries; write them as `2000`, `1018sub4` or `2000-20FFsub1-3`"
         );
+        for key in ["optional", "variable", "rpdo"] {
+            assert_eq!(
+                line(&format!("{key} = [\n'2000', '2000sub1-'\n]\n")),
+                "a.toml:2:9: GEN `2000sub1-` names no entries; write them as `2000`, `1018sub4` or `2000-20FFsub1-3`"
+            );
+        }
         assert_eq!(
             line("[storage]\n'2000' = 1\n"),
             "a.toml:2:10: GEN a group is `none`, `communication`, `application`, `manufacturer`, or a sub-index of \

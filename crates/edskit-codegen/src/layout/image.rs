@@ -22,8 +22,13 @@ impl Images {
     /// Gives the value of an entry its place; false where the image is full.
     pub(super) fn place(&mut self, item: &Item, side_file: &SideFile) -> (Entry, bool) {
         let capacity = side_file.capacity(item.index, item.sub_index).filter(|_| item.data_type.is_string());
-        let is_variable = is_variable(item, capacity.is_some());
+        let is_received = side_file.is_received(item.index, item.sub_index) && can_be_carried(item);
+        let is_said = side_file.is_variable(item.index, item.sub_index) || is_received || capacity.is_some();
+        let is_variable = is_variable(item, is_said);
         let mut flags = rights(item);
+        if is_received {
+            flags = flags.and(Flags::RPDO);
+        }
         let default = item.default.as_ref().map_or(&[][..], |default| &default.bytes);
         let (offset, size, is_within);
         if is_variable {
@@ -79,7 +84,7 @@ impl Images {
 }
 
 fn rights(item: &Item) -> Flags {
-    let may_be_mapped = item.is_mappable && (item.data_type.is_mappable() || item.data_type.is_string());
+    let may_be_mapped = item.is_mappable && can_be_carried(item);
     [
         (Flags::READ, item.access.is_readable()),
         (Flags::WRITE, item.access.is_writable()),
@@ -91,8 +96,13 @@ fn rights(item: &Item) -> Flags {
     .fold(Flags::NONE, |flags, (flag, _)| flags.and(flag))
 }
 
-/// Whether the value can change: clients may write it, or the device does.
-fn is_variable(item: &Item, has_capacity: bool) -> bool {
+/// Whether a value of this type fits into a PDO; a text does where it is short enough.
+fn can_be_carried(item: &Item) -> bool {
+    item.data_type.is_mappable() || item.data_type.is_string()
+}
+
+/// Whether the value can change: clients may write it, or the device does, or the side-file says so.
+fn is_variable(item: &Item, is_said: bool) -> bool {
     if item.data_type == DataType::Domain {
         return false;
     }
@@ -106,6 +116,6 @@ fn is_variable(item: &Item, has_capacity: bool) -> bool {
         || is_of_node
         || is_of_device
         || is_node_relative
-        || has_capacity
+        || is_said
         || (item.sub_index == SubIndex(0) && item.is_extended)
 }

@@ -278,6 +278,44 @@ fn a_side_file_names_entries_of_some_configurations_and_units() {
 }
 
 #[test]
+fn a_side_file_names_what_the_device_changes() {
+    let eds = object("1008", "a", "DataType=9 AccessType=const DefaultValue=Pump")
+        + &object("1018", "b", "ObjectType=9")
+        + &object("1018sub0", "b", "DataType=5 AccessType=ro DefaultValue=2")
+        + &object("1018sub1", "b", "DataType=7 AccessType=ro DefaultValue=1")
+        + &object("1018sub2", "b", "DataType=7 AccessType=ro DefaultValue=2")
+        + &object("2000", "c", "DataType=15 AccessType=ro");
+    let layout = layout(&eds, "variable = ['1008', '1018sub0', '1018sub2', '2000', '3000']\n");
+    let variable: Vec<bool> = layout.entries.iter().map(|entry| entry.flags.has(Flags::VARIABLE)).collect();
+    assert_eq!(variable, [true, true, false, true, false], "a domain lies nowhere");
+    assert_eq!(layout.defaults, [&b"\x04\0Pump"[..], &[2], &[2, 0, 0, 0]].concat());
+    assert_eq!(entry(&layout, 0x1018, 2).flags, Flags::READ.and(Flags::VARIABLE), "it is not stored");
+    assert_eq!(messages(&layout.notes), ["a.toml:1:53: GEN the dictionary has no such entry"]);
+}
+
+#[test]
+fn a_side_file_names_what_rpdos_write() {
+    let eds = object("2000", "a", "DataType=6 AccessType=ro PDOMapping=1")
+        + &object("2001", "b", "DataType=6 AccessType=const DefaultValue=1")
+        + &object("2002", "c", "DataType=15 AccessType=ro")
+        + &object("2003", "d", "DataType=6 AccessType=ro")
+        + &object("1600", "e", "ObjectType=9")
+        + &object("1600sub0", "e", "DataType=5 AccessType=ro DefaultValue=2")
+        + &object("1600sub1", "e", "DataType=7 AccessType=ro DefaultValue=0x20000010")
+        + &object("1600sub2", "e", "DataType=7 AccessType=ro DefaultValue=0x20010010");
+    assert_eq!(layout(&eds, "").mapping_problems().len(), 2);
+    let layout = layout(&eds, "rpdo = ['2000-2002', '3000sub1']\n");
+    assert_eq!(layout.mapping_problems(), []);
+    let of = |index| entry(&layout, index, 0).flags;
+    let received = Flags::READ.and(Flags::RPDO).and(Flags::VARIABLE);
+    assert_eq!(of(0x2000), received.and(Flags::TPDO));
+    assert_eq!(of(0x2001), received);
+    assert_eq!(of(0x2002), Flags::READ, "no PDO carries a domain");
+    assert_eq!(of(0x2003), Flags::READ.and(Flags::VARIABLE));
+    assert_eq!(messages(&layout.notes), ["a.toml:1:22: GEN the dictionary has no such entry"]);
+}
+
+#[test]
 fn mappings_are_judged() {
     let mapping = |entries: &[&str]| {
         let head = object("1A00", "Mapping", "ObjectType=9")
