@@ -54,6 +54,13 @@ impl Configuration {
         Ok(())
     }
 
+    /// Gives a parameter the value that it has in another configuration.
+    pub(super) fn copy(&mut self, parameter: Parameter, from: &Self) {
+        if let Some(place) = self.values.get_mut(parameter.position()) {
+            *place = from.get(parameter);
+        }
+    }
+
     /// The value of a parameter whose range is within 0 to 65535.
     fn word(&self, parameter: Parameter) -> u16 {
         self.get(parameter) as u16
@@ -79,6 +86,12 @@ impl Configuration {
         let manual = self.get(Parameter::MANUAL_BIT_TIMING) != 0;
         let kbit_per_s = u64::from(self.word(Parameter::BIT_RATE));
         if manual { None } else { Bitrate::from_kbit_per_s(kbit_per_s) }
+    }
+
+    /// P428, P430 and P429 as they are set: partner, its monitoring time in ms and the own cycle time in ms.
+    pub(super) fn heartbeat_parameters(&self) -> [u16; 3] {
+        [Parameter::PARTNER_NODE_ID, Parameter::HEARTBEAT_RX_TIME, Parameter::HEARTBEAT_TX_TIME]
+            .map(|parameter| self.word(parameter))
     }
 
     /// How often the gateway sends its heartbeat, P429; `None` if it sends none (GW-HB-03).

@@ -38,21 +38,45 @@
 mod amount;
 mod check;
 mod configuration;
+mod control_unit;
+mod device;
+mod dictionary;
+mod engine;
+mod error;
+mod error_memory;
+mod event;
+mod fault;
+mod governor;
+mod identification;
 mod input;
+mod inputs;
 mod measured;
+mod monitoring;
 mod name;
 mod object;
 mod parameter;
+mod parameter_memory;
 mod pdo;
 mod period;
 mod series;
 mod signal;
+mod state;
 mod table;
+mod telegram;
+mod traffic;
 
 pub use amount::{Allowed, Amount};
 pub use check::{CAN_OP_INIT_ERR, Claims, ERR_CAN_OPEN, INITIALISATION_ATTEMPTS, RULES};
 pub use configuration::{Configuration, OutOfRange};
+pub use device::Gateway;
+pub use engine::Engine;
+pub use error::{CanOpenError, CanOpenErrors, GatewayError};
+pub use event::{Event, Refusal};
+pub use fault::Fault;
+pub use governor::Governor;
+pub use identification::Identification;
 pub use input::{Input, Target};
+pub use inputs::{Inputs, Sensor};
 pub use measured::{measured_value, measured_value_by_name};
 pub use name::Name;
 pub use object::ObjectSizes;
@@ -60,7 +84,12 @@ pub use parameter::{Owner, Parameter, Quantity, Values, parameters};
 pub use pdo::{Activity, Pdo, Source, Word};
 pub use period::{MainCycle, Period};
 pub use signal::{NAMED_SIGNALS, NamedSignals, Signal, SignalType, Signals};
+pub use state::{Commander, State};
 pub use table::PdoTable;
+pub use telegram::StructureError;
+pub use traffic::Traffic;
 
+#[cfg(test)]
+mod testing;
 #[cfg(test)]
 mod tests;

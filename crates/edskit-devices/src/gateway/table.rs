@@ -59,6 +59,30 @@ impl PdoTable {
         }
     }
 
+    /// The table before an initialisation: no PDO carries anything.
+    pub(super) fn inactive(configuration: &Configuration) -> Self {
+        let mut numbers = (0, 0);
+        let mut next = |direction, activity| {
+            let number = match direction {
+                PdoDirection::Receive => &mut numbers.0,
+                PdoDirection::Transmit => &mut numbers.1,
+            };
+            *number += 1;
+            empty(configuration, direction, *number, activity, None)
+        };
+        Self {
+            rpdos: [(); 4].map(|()| next(PdoDirection::Receive, Activity::NoInputs)),
+            tpdos: [(); 16].map(|()| next(PdoDirection::Transmit, Activity::NotSelected)),
+            node_id: configuration.node_id(),
+            partner_node_id: configuration.partner_node_id(),
+        }
+    }
+
+    /// RPDO 1 to 4, then TPDO 1 to 16.
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut Pdo> {
+        self.rpdos.iter_mut().chain(&mut self.tpdos)
+    }
+
     /// RPDO 1 to 4, then TPDO 1 to 16.
     pub fn iter(&self) -> impl Iterator<Item = &Pdo> {
         self.rpdos.iter().chain(&self.tpdos)
@@ -79,19 +103,24 @@ fn empty(
     activity: Activity,
     period: Option<Period>,
 ) -> Pdo {
-    let node_id = configuration.node_id();
-    let party = Party::Pdo { direction, number: u16::from(number) };
+    let (node_id, can_id) = (configuration.node_id(), identifier(configuration, direction, number));
+    Pdo { node_id, direction, number, can_id, activity, period, words: [Word::DUMMY; 4], length: 0 }
+}
+
+/// The identifier of a PDO, active or not: predefined, or P16404 to P16415 for TPDO 5 to 16 (7.2.4; GW-CFG-12,
+/// GW-CFG-13).
+pub(super) fn identifier(configuration: &Configuration, direction: PdoDirection, number: u8) -> CanId {
     let own = match direction {
         PdoDirection::Transmit => Parameter::tpdo_identifier(number),
         PdoDirection::Receive => None,
     };
+    let party = Party::Pdo { direction, number: u16::from(number) };
     let can_id = match own {
         // The range of P16404 to P16415 is that of 11-bit identifiers.
         Some(parameter) => CanId::standard(configuration.get(parameter) as u16),
-        None => party.predefined_can_id(node_id),
+        None => party.predefined_can_id(configuration.node_id()),
     };
-    let can_id = can_id.unwrap_or(CanId::NMT);
-    Pdo { node_id, direction, number, can_id, activity, period, words: [Word::DUMMY; 4], length: 0 }
+    can_id.unwrap_or(CanId::NMT)
 }
 
 /// TPDO 1 to 3: errors and engine status (4.1.1; GW-PDO-01 to GW-PDO-03, GW-CFG-01).

@@ -1,0 +1,5 @@
+//! Generates the object dictionary of the gateway.
+
+fn main() {
+    edskit_codegen::compile("../../eds/CANopenGateway.eds");
+}

@@ -1,0 +1,179 @@
+//! How the gateway differs from CiA 301: the hooks of its node.
+
+use super::super::governor::Governor;
+use super::super::identification::Identification;
+use super::super::inputs::CHANNELS;
+use super::super::state::State;
+use super::super::table::PdoTable;
+use super::super::{Configuration, Pdo};
+use super::Plant;
+use super::side::Phase;
+use crate::gateway::dictionary::canopen_gateway::objects as entries;
+use edskit_runtime::{Application, Emergency, Entry, Error, Microseconds, Objects, Reset, Storage};
+use edskit_types::{AbortCode, Index, NmtState, PdoDirection};
+
+/// The objects with process data, whose size depends on the configuration.
+const DIGITAL_INPUTS: Index = Index(0x2003);
+const ANALOG_INPUTS: Index = Index(0x2004);
+
+impl<G: Governor, S: Storage> Application for Plant<G, S> {
+    /// 1001h, 2000h and 2005h follow the errors at any time (5.1.1, 5.1.6; GW-OD-14, GW-OD-19).
+    fn before_read(&mut self, objects: &mut Objects<'_>, entry: &Entry) -> Result<(), AbortCode> {
+        match (entry.index.0, entry.sub_index.0) {
+            (0x1001, _) => objects.set(entries::ERROR_REGISTER, self.error_register()),
+            (0x2000, sub_index @ 1..=6) => {
+                let word = (self.errors() >> (16 * (u32::from(sub_index) - 1))) as u16;
+                objects.set_value(entry.index, sub_index, word);
+            }
+            (0x2000, 7) => objects.set_value(entry.index, 7, u16::from(self.governor.model.engine_status())),
+            (0x2005, _) => objects.set(entries::CAN_OPEN_ERRORS, self.gateway.can_open.0),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Object, sub-index, length, and only then that everything is read-only (5.2, table 3; GW-SDO-03, GW-NOTE-22,
+    /// GW-NOTE-24).
+    fn check_write(
+        &mut self,
+        _: &Objects<'_>,
+        entry: &Entry,
+        length: Option<usize>,
+    ) -> Result<(), AbortCode> {
+        let size = usize::from(entry.size);
+        Err(match length {
+            Some(length) if length > size => AbortCode::LENGTH_TOO_HIGH,
+            Some(length) if length < size => AbortCode::LENGTH_TOO_LOW,
+            _ => AbortCode::READ_ONLY,
+        })
+    }
+
+    /// The entries that the initialisation has brought about (2, 5.1; GW-APP-04, GW-EDS-16, GW-NOTE-13).
+    fn is_present(&mut self, objects: &Objects<'_>, entry: &Entry) -> bool {
+        let Some(table) = &self.gateway.pdos else { return false };
+        if entry.index == ANALOG_INPUTS {
+            let mapped = table.rpdos.iter().flat_map(|rpdo| rpdo.words()).map(|word| word.object);
+            return mapped
+                .filter(|object| object.index() == ANALOG_INPUTS)
+                .any(|object| object.sub_index() == entry.sub_index);
+        }
+        entry.sub_index.0 <= objects.value(entry.index, 0).unwrap_or_default()
+    }
+
+    fn state_changed(&mut self, _: &mut Objects<'_>, _: NmtState, to: NmtState) {
+        let is_operational = to == NmtState::Operational;
+        self.governor.reception.is_operational = is_operational;
+        if is_operational {
+            self.governor.begin_operation();
+            self.gateway.heartbeat = Default::default();
+            self.clear_errors();
+        }
+        let state = State::ALL.into_iter().find(|state| state.nmt() == Some(to));
+        if let Some(state) = state {
+            self.events.push(super::Event::State(state));
+        }
+    }
+
+    /// A reset by the NMT master is its command to initialise (3; GW-NMT-11, GW-NOTE-01).
+    fn reset(&mut self, _: &mut Objects<'_>, _: Reset) {
+        if self.gateway.phase == Phase::Ready {
+            self.enter_phase(Phase::Init);
+        }
+    }
+
+    /// The dictionary is built when the governor has initialised the gateway; before that no object can be reached.
+    fn is_ready(&mut self, objects: &mut Objects<'_>) -> bool {
+        let Some(table) = self.gateway.pdos.as_ref().filter(|_| self.gateway.phase == Phase::Ready) else {
+            return false;
+        };
+        build(objects, table, self.parameters.effective(), self.gateway.identification);
+        true
+    }
+
+    /// In main cycles of 16 ms (7.2.3; GW-TIMING-12); 1017h shows the parameter as it is set (GW-GAP-09).
+    fn heartbeat_time(&mut self, _: Microseconds) -> Microseconds {
+        let period = self.parameters.effective().heartbeat();
+        Microseconds(period.map_or(0, |period| period.micros().into()))
+    }
+
+    /// The governor says when a TPDO is sent (2, table 1; GW-APP-03).
+    fn sends_at_start(&mut self, _: u16) -> bool {
+        false
+    }
+
+    fn rpdo_received(&mut self, objects: &mut Objects<'_>, number: u16) {
+        let reception = &mut self.governor.reception;
+        let word = |index, sub_index| objects.value::<u16>(index, sub_index);
+        if number == 1 {
+            reception.switches = word(DIGITAL_INPUTS, 1).unwrap_or_default();
+            reception.flags = word(DIGITAL_INPUTS, 2).unwrap_or_default();
+        } else {
+            let first = 4 * (usize::from(number).saturating_sub(2));
+            for (place, channel) in reception.channels.iter_mut().enumerate().skip(first).take(4) {
+                *channel = word(ANALOG_INPUTS, place as u8 + 1).unwrap_or_default();
+            }
+        }
+        if let Some(monitoring) = reception.monitoring.get_mut(usize::from(number).saturating_sub(1)) {
+            monitoring.arrived();
+        }
+        self.gateway.rpdo = Some(number);
+    }
+
+    /// There are no EMCY messages (GW-OD-21), but the node says by one that its transmit buffer was full.
+    fn emergency(&mut self, _: &mut Objects<'_>, emergency: &Emergency) {
+        self.gateway.has_overflown |= emergency.code == Error::CAN_OVERRUN.code;
+    }
+}
+
+impl<G: Governor, S: Storage> Plant<G, S> {
+    /// 1001h: bit 0 for any error of the gateway, bit 4 for one of communication (GW-NOTE-36).
+    fn error_register(&self) -> u8 {
+        let generic = self.gateway.errors.present().next().is_some();
+        let communication = self.gateway.can_open.iter().any(|error| error.is_of_communication());
+        u8::from(generic) | u8::from(communication) << 4
+    }
+}
+
+/// Puts what follows from the initialisation into the dictionary (ch. 10).
+fn build(
+    objects: &mut Objects<'_>,
+    table: &PdoTable,
+    configuration: &Configuration,
+    identification: Identification,
+) {
+    let [partner, monitoring, heartbeat] = configuration.heartbeat_parameters();
+    objects.set(entries::CONSUMER_HEARTBEAT_TIME, u32::from(partner) << 16 | u32::from(monitoring));
+    objects.set(entries::PRODUCER_HEARTBEAT_TIME, heartbeat);
+    objects.set(entries::IDENTITY_OBJECT_REVISION_NUMBER, identification.software_version.into());
+    objects.set(entries::IDENTITY_OBJECT_SERIAL_NUMBER, identification.serial());
+    for pdo in table.iter() {
+        let (communication, mapping) = indices(pdo);
+        objects.set_value(communication, 1, pdo.cob_id().0);
+        objects.set_value(mapping, 0, pdo.words().len() as u8);
+        for (sub_index, word) in (1..).zip(pdo.words()) {
+            objects.set_value(mapping, sub_index, word.object.0);
+        }
+    }
+    let sizes = table.object_sizes();
+    for (index, size) in [
+        (0x2000, sizes.digital_outputs),
+        (0x2001, sizes.unsigned_analog_outputs),
+        (0x2002, sizes.signed_analog_outputs),
+        (0x2003, sizes.digital_inputs),
+        (0x2004, sizes.analog_inputs),
+    ] {
+        objects.set_value(Index(index), 0, size);
+    }
+}
+
+/// Where the communication and the mapping parameter of a PDO are.
+fn indices(pdo: &Pdo) -> (Index, Index) {
+    let (communication, mapping) = match pdo.direction {
+        PdoDirection::Receive => (Index::RPDO_COMMUNICATION, Index::RPDO_MAPPING),
+        PdoDirection::Transmit => (Index::TPDO_COMMUNICATION, Index::TPDO_MAPPING),
+    };
+    let offset = u16::from(pdo.number) - 1;
+    (Index(communication.0 + offset), Index(mapping.0 + offset))
+}
+
+const _: () = assert!(CHANNELS == 12, "2004h has an entry for each channel");

@@ -1,0 +1,239 @@
+//! What both units do in their main cycles.
+
+use super::super::control_unit::Step;
+use super::super::governor::Governor;
+use super::super::inputs::{Inputs, Reception};
+use super::super::parameter::{Owner, Parameter, known};
+use super::super::pdo::{Pdo, Source};
+use super::{Gateway, Plant, node};
+use crate::gateway::dictionary::canopen_gateway::objects;
+use edskit_runtime::{Handle, Instant, Microseconds, Objects, Storage};
+
+/// How long each unit waits after its start before it misses the other one (7.2.1; GW-CFG-31).
+const GATEWAY_DELAY: Parameter = known(Owner::Gateway, 400);
+const GOVERNOR_DELAY: Parameter = known(Owner::Governor, 400);
+/// Whether each unit communicates with the other one (7.1.1, 7.2.1; GW-CFG-34).
+const GATEWAY_LINK: Parameter = known(Owner::Gateway, 4400);
+const GOVERNOR_LINK: Parameter = known(Owner::Governor, 4406);
+/// Whom each unit takes itself and the other one for (7.1.1, 7.2.1; GW-CFG-32, GW-CFG-33).
+const GATEWAY_NUMBER: Parameter = known(Owner::Gateway, 401);
+const GOVERNOR_NUMBER_OF_GATEWAY: Parameter = known(Owner::Gateway, 402);
+pub(super) const GOVERNOR_NUMBER: Parameter = known(Owner::Governor, 401);
+const GATEWAY_NUMBER_OF_GOVERNOR: Parameter = known(Owner::Governor, 403);
+
+/// The words of errors in 2000h (5.1.1; GW-OD-13).
+const ERROR_WORDS: [Handle<u16>; 6] = [
+    objects::DIGITAL_OUTPUTS_ERRORS_0_15,
+    objects::DIGITAL_OUTPUTS_ERRORS_16_31,
+    objects::DIGITAL_OUTPUTS_ERRORS_32_47,
+    objects::DIGITAL_OUTPUTS_ERRORS_48_63,
+    objects::DIGITAL_OUTPUTS_ERRORS_64_79,
+    objects::DIGITAL_OUTPUTS_ERRORS_80_95,
+];
+
+impl<G: Governor, S: Storage> Gateway<G, S> {
+    /// Every start and main cycle that is due, in the order of time; the governor first where both are.
+    pub(super) fn run_cycles(&mut self, now: Instant) {
+        loop {
+            let governor_first = self.plant.governor.unit.next() <= self.plant.gateway.unit.next();
+            let owner = if governor_first { Owner::Governor } else { Owner::Gateway };
+            let Some(step) = self.plant.unit_mut(owner).step(now) else { return };
+            match (step, owner) {
+                (Step::Start, Owner::Governor) => self.start_governor(),
+                (Step::Start, Owner::Gateway) => self.start_gateway(now),
+                (Step::MainCycle, Owner::Governor) => self.governor_cycle(now),
+                (Step::MainCycle, Owner::Gateway) => self.gateway_cycle(now),
+            }
+        }
+    }
+
+    fn start_governor(&mut self) {
+        self.plant.parameters.start(Owner::Governor);
+        self.plant.governor.start();
+        self.plant.governor.model.start();
+        self.plant.events.push(super::Event::Started(Owner::Governor));
+    }
+
+    fn start_gateway(&mut self, now: Instant) {
+        self.plant.start_gateway();
+        // The node-ID of the parameters takes effect.
+        self.node = node(self.plant.parameters.effective());
+        self.node.poll(now, &mut self.plant);
+        self.update_errors(now);
+    }
+
+    fn gateway_cycle(&mut self, now: Instant) {
+        let plant = &mut self.plant;
+        if plant.is_operational() {
+            plant.gateway.heartbeat.main_cycle(plant.parameters.effective().heartbeat_monitoring());
+        }
+        let delay = plant.delay(GATEWAY_DELAY);
+        let is_monitored = plant.is_set(GATEWAY_LINK) && plant.gateway.unit.age(now) >= delay;
+        let is_heard = plant.governor.unit.is_on() && plant.link_works();
+        plant.gateway.silence.main_cycle(is_heard || !is_monitored);
+        self.update_errors(now);
+    }
+
+    fn governor_cycle(&mut self, now: Instant) {
+        let plant = &mut self.plant;
+        plant.governor.cycles = plant.governor.cycles.wrapping_add(1);
+        let delay = plant.delay(GOVERNOR_DELAY);
+        let is_monitored = plant.is_set(GOVERNOR_LINK) && plant.governor.unit.age(now) >= delay;
+        let is_heard = plant.gateway.unit.is_on() && plant.link_works();
+        plant.governor.silence.main_cycle(is_heard || !is_monitored);
+        plant.monitor_rpdos();
+        let inputs = Inputs { configuration: plant.parameters.effective(), reception: plant.reception() };
+        plant.governor.model.main_cycle(&inputs);
+        self.initialise(now);
+        self.update_errors(now);
+        self.send_tpdos(now);
+    }
+
+    /// Tells the gateway the data of the TPDOs that are due; it passes them in operational only (3; GW-NMT-14).
+    fn send_tpdos(&mut self, now: Instant) {
+        let is_operational = self.plant.is_operational();
+        let Some(table) = self.plant.gateway.pdos.as_ref().filter(|_| self.plant.hears_governor()) else {
+            return;
+        };
+        let mut due = [0; 16];
+        let mut count = 0;
+        let errors = self.plant.error_words();
+        let mut objects = self.node.objects();
+        for (handle, word) in ERROR_WORDS.into_iter().zip(errors) {
+            objects.set(handle, word);
+        }
+        for tpdo in table.tpdos.iter().filter(|tpdo| tpdo.activity.is_active()) {
+            let governor = &mut self.plant.governor;
+            let is_due = match tpdo.period {
+                // Cyclic ones in main cycles of the governor (7.1.3; GW-TIMING-02).
+                Some(period) => governor.cycles.is_multiple_of(period.cycles.into()),
+                // The others when their data change, at most once in a main cycle (GW-TIMING-01).
+                None => {
+                    let words = binary_words(tpdo, errors, governor.model.engine_status());
+                    let sent = governor.sent.get_mut(usize::from(tpdo.number) - 1);
+                    is_operational && sent.is_some_and(|sent| sent.replace(words) != Some(words))
+                }
+            };
+            if is_due {
+                write_words(&mut objects, tpdo, &governor.model);
+            }
+            if let Some(place) = due.get_mut(count).filter(|_| is_due && is_operational) {
+                *place = tpdo.number;
+                count += 1;
+            }
+        }
+        for number in due.into_iter().take(count) {
+            self.node.trigger_tpdo(now, number.into());
+        }
+    }
+}
+
+/// The words of TPDO 1 to 3.
+fn binary_words(tpdo: &Pdo, errors: [u16; 6], status: u8) -> [u16; 4] {
+    let mut words = [0; 4];
+    for (place, word) in words.iter_mut().zip(tpdo.words()) {
+        *place = match word.source {
+            Source::Errors { first } => errors.get(usize::from(first) / 16).copied().unwrap_or_default(),
+            _ => status.into(),
+        };
+    }
+    words
+}
+
+/// Puts the governor's values into the entries that a TPDO carries; the errors are there already.
+fn write_words(objects: &mut Objects<'_>, tpdo: &Pdo, governor: &impl Governor) {
+    for word in tpdo.words() {
+        let value = match word.source {
+            Source::Signal { number, .. } => governor.value(number),
+            Source::EngineStatus => governor.engine_status().into(),
+            _ => continue,
+        };
+        objects.set_value(word.object.index(), word.object.sub_index().0, value);
+    }
+}
+
+impl<G: Governor, S: Storage> Plant<G, S> {
+    /// The gateway's program starts with what it has stored.
+    fn start_gateway(&mut self) {
+        // Bits 5, 4 and 3 of 3099: pages of parameters, errors and serial number that are bad (9.4; GW-APP-35).
+        let is_bad = |bit: u8| self.gateway.eeprom_code >> bit & 1 == 1;
+        let (parameters, counters, serial) = (is_bad(5), is_bad(4), is_bad(3));
+        match parameters {
+            true => self.parameters.start_with_defaults(Owner::Gateway),
+            false => self.parameters.start(Owner::Gateway),
+        }
+        self.gateway.start();
+        if counters && self.gateway.errors.clear_counters(&mut self.gateway.storage).is_err() {
+            self.events.push(super::Event::NotStored);
+        }
+        if serial {
+            (self.gateway.identification.serial_date, self.gateway.identification.serial_number) = (0, 0);
+        }
+        self.events.push(super::Event::Started(Owner::Gateway));
+    }
+
+    fn is_set(&self, parameter: Parameter) -> bool {
+        self.parameters.effective().get(parameter) != 0
+    }
+
+    fn delay(&self, parameter: Parameter) -> Microseconds {
+        Microseconds::from_milliseconds(self.parameters.effective().get(parameter).unsigned_abs())
+    }
+
+    /// Whether telegrams pass between the units (7.1.1, 7.2.1; GW-CFG-32 to GW-CFG-34).
+    pub(super) fn link_works(&self) -> bool {
+        let value = |parameter| self.parameters.effective().get(parameter);
+        !self.faults.iter().any(super::Fault::breaks_link)
+            && self.is_set(GATEWAY_LINK)
+            && self.is_set(GOVERNOR_LINK)
+            && value(GATEWAY_NUMBER) == value(GATEWAY_NUMBER_OF_GOVERNOR)
+            && value(GOVERNOR_NUMBER) == value(GOVERNOR_NUMBER_OF_GATEWAY)
+    }
+
+    /// Whether the gateway gets telegrams of the governor now.
+    pub(super) fn hears_governor(&self) -> bool {
+        self.governor.unit.is_on() && self.gateway.unit.is_on() && self.link_works()
+    }
+
+    /// The monitoring of active RPDOs runs in operational (7.1.5; GW-APP-09).
+    fn monitor_rpdos(&mut self) {
+        let is_operational = self.is_operational();
+        let Some(table) = self.gateway.pdos.as_ref().filter(|_| is_operational) else { return };
+        for (monitoring, rpdo) in self.governor.reception.monitoring.iter_mut().zip(&table.rpdos) {
+            monitoring.main_cycle(rpdo.period.filter(|_| rpdo.activity.is_active()));
+        }
+    }
+
+    pub(super) fn is_operational(&self) -> bool {
+        self.governor.reception.is_operational
+    }
+
+    /// What the governor gets from CANopen.
+    pub(super) fn inputs(&self) -> Inputs<'_> {
+        Inputs { configuration: self.parameters.effective(), reception: self.reception() }
+    }
+
+    /// What has come from CANopen, and whether it can be believed.
+    fn reception(&self) -> Reception {
+        let configuration = self.parameters.effective();
+        let mut rpdo = 0;
+        Reception {
+            is_monitored: [(); 4].map(|()| {
+                rpdo += 1;
+                configuration.rpdo_monitoring(rpdo).is_some()
+            }),
+            heartbeat_is_missing: self.gateway.heartbeat.is_triggered(),
+            ..self.governor.reception
+        }
+    }
+
+    /// The 96 errors of governor and gateway, bit k of the whole for 3000 + k (GW-NOTE-05).
+    fn error_words(&self) -> [u16; 6] {
+        let mut errors = self.errors();
+        [(); 6].map(|()| {
+            let word = errors as u16;
+            errors >>= 16;
+            word
+        })
+    }
+}
