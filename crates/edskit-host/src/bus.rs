@@ -3,6 +3,7 @@
 use crate::{BusError, SendError};
 use edskit_runtime::{Frame, Instant};
 use std::fmt;
+use std::ops::DerefMut;
 
 /// A frame and when it arrived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -71,29 +72,8 @@ pub trait Bus {
     }
 }
 
-impl<B: Bus + ?Sized> Bus for &mut B {
-    fn now(&self) -> Instant {
-        (**self).now()
-    }
-
-    fn receive(&mut self) -> Result<Option<Received>, BusError> {
-        (**self).receive()
-    }
-
-    fn send(&mut self, frame: &Frame) -> Result<(), SendError> {
-        (**self).send(frame)
-    }
-
-    fn wait(&mut self, deadline: Instant) -> Result<(), BusError> {
-        (**self).wait(deadline)
-    }
-
-    fn event(&mut self) -> Option<Event> {
-        (**self).event()
-    }
-}
-
-impl<B: Bus + ?Sized> Bus for Box<B> {
+/// A reference or a box is as good as the bus behind it.
+impl<P: DerefMut<Target: Bus>> Bus for P {
     fn now(&self) -> Instant {
         (**self).now()
     }

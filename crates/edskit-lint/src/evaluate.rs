@@ -16,11 +16,7 @@ pub(crate) fn node_ids(context: &Context<'_>) -> impl Iterator<Item = NodeId> + 
 
 /// The node-ID that a DCF commissions.
 pub(crate) fn commissioned(context: &Context<'_>) -> Option<NodeId> {
-    if context.kind != FileKind::Dcf {
-        return None;
-    }
-    let node_id = context.sheet.commissioning()?.node_id()?.known()?;
-    NodeId::new(node_id).ok()
+    if context.kind == FileKind::Dcf { context.sheet.commissioned_node_id() } else { None }
 }
 
 /// The value of a dictionary entry that counts, readable as an integer, with its place in the file.

@@ -1,6 +1,7 @@
 //! EMCY: errors, the error register 1001h, the history 1003h, and the message (CiA 301 v4.2, 7.2.7).
 
 use crate::context::Context;
+use crate::ring::Ring;
 use crate::time::Timer;
 use crate::{Instant, Microseconds, Pattern};
 use edskit_types::{AbortCode, CobId, Index};
@@ -63,18 +64,19 @@ struct Present {
 #[derive(Debug)]
 pub(crate) struct Emcy {
     present: [Option<Present>; MOST_ERRORS],
-    /// A ring of messages that wait: `count` of them from `first` on.
-    waiting: [Emergency; MOST_WAITING],
-    first: usize,
-    count: usize,
+    /// The messages that wait. The oldest stay: they tell what came first.
+    waiting: Ring<Emergency, MOST_WAITING>,
     /// Until when no message may be sent.
     inhibit: Timer,
 }
 
 impl Emcy {
     pub(crate) const fn new() -> Self {
-        let waiting = [Emergency { code: 0, register: 0, info: [0; 5] }; MOST_WAITING];
-        Self { present: [None; MOST_ERRORS], waiting, first: 0, count: 0, inhibit: Timer::OFF }
+        Self {
+            present: [None; MOST_ERRORS],
+            waiting: Ring::new(Emergency { code: 0, register: 0, info: [0; 5] }),
+            inhibit: Timer::OFF,
+        }
     }
 
     /// The error register that follows from what is present.
@@ -99,31 +101,14 @@ impl Emcy {
         }
     }
 
-    /// The message that has waited longest.
-    fn first(&self) -> Option<Emergency> {
-        self.waiting.get(self.first).copied().filter(|_| self.count > 0)
-    }
-
-    fn drop_first(&mut self) {
-        self.first = (self.first + 1) % MOST_WAITING;
-        self.count -= 1;
-    }
-
-    /// The oldest messages stay: they tell what came first.
-    fn append(&mut self, emergency: Emergency) {
-        let place = self.waiting.get_mut((self.first + self.count) % MOST_WAITING);
-        if let Some(place) = place.filter(|_| self.count < MOST_WAITING) {
-            *place = emergency;
-            self.count += 1;
-        }
-    }
-
     /// When a waiting message may be sent.
     pub(crate) fn deadline(&self) -> Instant {
-        match self.count {
-            0 => Instant::NEVER,
-            _ if self.inhibit.is_running() => self.inhibit.deadline(),
-            _ => Instant::default(),
+        if self.waiting.is_empty() {
+            Instant::NEVER
+        } else if self.inhibit.is_running() {
+            self.inhibit.deadline()
+        } else {
+            Instant::default()
         }
     }
 }
@@ -156,7 +141,7 @@ impl Context<'_> {
     fn tell(&mut self, emergency: Emergency) {
         self.objects.set_value(Index::ERROR_REGISTER, 0, emergency.register);
         self.app.emergency(&mut self.objects, &emergency);
-        self.core.emcy.append(emergency);
+        self.core.emcy.waiting.push(emergency);
         self.send_emergencies();
     }
 
@@ -192,22 +177,21 @@ impl Context<'_> {
     /// Sends what waits, as far as the state, the inhibit time and the queue allow.
     pub(crate) fn send_emergencies(&mut self) {
         // Almost always nothing waits, and this is asked with every call of the node.
-        if self.core.emcy.count == 0 || !self.is_communicating() {
+        if self.core.emcy.waiting.is_empty() || !self.is_communicating() {
             return;
         }
         let Some(cob_id) = self.objects.value(Index::EMCY_COB_ID, 0).map(CobId) else {
-            self.core.emcy.count = 0;
+            self.core.emcy.waiting.clear();
             return;
         };
         let inhibit = Microseconds::from_inhibit_time(self.objects.value(Index(0x1015), 0).unwrap_or(0));
         loop {
             let is_inhibited =
                 self.core.emcy.inhibit.is_running() && !self.core.emcy.inhibit.is_due(self.now);
-            let Some(emergency) = self.core.emcy.first() else { return };
             if is_inhibited || self.core.queue.room() == 0 {
                 return;
             }
-            self.core.emcy.drop_first();
+            let Some(emergency) = self.core.emcy.waiting.pop() else { return };
             if cob_id.is_valid() {
                 let [low, high] = emergency.code.to_le_bytes();
                 let [a, b, c, d, e] = emergency.info;

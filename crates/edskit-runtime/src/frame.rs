@@ -17,6 +17,10 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// What stands where there is no frame.
+    pub(crate) const NONE: Self =
+        Self { can_id: CanId::NMT, is_remote: false, length: 0, data: [0; MOST_DATA] };
+
     /// A data frame; bytes beyond the eighth are left out.
     #[must_use]
     pub fn new(can_id: CanId, data: &[u8]) -> Self {

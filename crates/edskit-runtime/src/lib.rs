@@ -99,6 +99,7 @@ mod nmt;
 mod node;
 mod pdo;
 mod queue;
+mod ring;
 mod sdo;
 mod storage;
 mod sync;

@@ -9,18 +9,6 @@ use edskit_types::{Bitrate, CanId, Index, NodeId};
 const RESPONSE: u16 = 0x7E4;
 /// The node-ID that means: none.
 const UNCONFIGURED: u8 = 255;
-/// The standard table of bit rates, by their number (CiA 305, table selector 0); 05h is reserved.
-const BIT_RATES: [Option<Bitrate>; 9] = [
-    Some(Bitrate::Kbit1000),
-    Some(Bitrate::Kbit800),
-    Some(Bitrate::Kbit500),
-    Some(Bitrate::Kbit250),
-    Some(Bitrate::Kbit125),
-    None,
-    Some(Bitrate::Kbit50),
-    Some(Bitrate::Kbit20),
-    Some(Bitrate::Kbit10),
-];
 
 /// Command specifiers.
 mod command {
@@ -105,7 +93,7 @@ impl Context<'_> {
                 self.answer([code, u8::from(!is_right), 0, 0, 0, 0, 0, 0]);
             }
             command::CONFIGURE_BIT_TIMING => {
-                let bit_rate = BIT_RATES.get(usize::from(b2)).copied().flatten();
+                let bit_rate = Bitrate::from_lss_index(b2);
                 let supported = bit_rate.filter(|bit_rate| b1 == 0 && self.supports(*bit_rate));
                 if supported.is_some() {
                     self.core.lss.bit_rate = supported;

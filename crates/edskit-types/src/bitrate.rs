@@ -66,6 +66,24 @@ impl Bitrate {
             _ => return None,
         })
     }
+
+    /// The bit rate that stands at this index of the standard table, by which LSS configures it (CiA 305 v2.2, configure
+    /// bit timing parameters with table selector 0): 0 is 1000 kbit/s, 8 is 10 kbit/s. `None` for 5, which is reserved,
+    /// for 9, automatic detection, and for what the table does not have.
+    #[must_use]
+    pub const fn from_lss_index(table_index: u8) -> Option<Self> {
+        Some(match table_index {
+            0 => Bitrate::Kbit1000,
+            1 => Bitrate::Kbit800,
+            2 => Bitrate::Kbit500,
+            3 => Bitrate::Kbit250,
+            4 => Bitrate::Kbit125,
+            6 => Bitrate::Kbit50,
+            7 => Bitrate::Kbit20,
+            8 => Bitrate::Kbit10,
+            _ => return None,
+        })
+    }
 }
 
 impl fmt::Display for Bitrate {
@@ -86,5 +104,15 @@ mod tests {
         let numbers: Vec<u16> = known.iter().map(|bitrate| bitrate.kbit_per_s()).collect();
         assert_eq!(numbers, [10, 20, 50, 125, 250, 500, 800, 1000]);
         assert_eq!(Bitrate::from_kbit_per_s(0x1_0000 + 10), None);
+    }
+
+    #[test]
+    fn lss_counts_from_fast_to_slow() {
+        let known: Vec<Bitrate> = (0..=u8::MAX).rev().filter_map(Bitrate::from_lss_index).collect();
+        assert_eq!(known, Bitrate::ALL);
+        assert_eq!(
+            [4, 5, 6, 9].map(Bitrate::from_lss_index),
+            [Some(Bitrate::Kbit125), None, Some(Bitrate::Kbit50), None]
+        );
     }
 }

@@ -4,7 +4,7 @@ use super::{Datasheet, Entry, Field, Section};
 use crate::key::KeyName;
 use crate::section::SectionKind;
 use core::ops::Deref;
-use edskit_types::{Bitrate, PdoDirection};
+use edskit_types::{Bitrate, NodeId, PdoDirection};
 
 macro_rules! section_view {
     ($(#[$doc:meta])* $name:ident, $kind:ident, $method:ident) => {
@@ -147,6 +147,13 @@ impl<'a> DeviceInfo<'a> {
     /// `DynamicChannelsSupported`: other than 0 where `[DynamicChannels]` exists.
     pub fn dynamic_channels_supported(self) -> Option<Field<'a, u8>> {
         self.filled(KeyName::DynamicChannelsSupported).map(Entry::unsigned)
+    }
+}
+
+impl Datasheet {
+    /// The node-ID that `[DeviceComissioning]` gives the device, in a DCF; `None` where it names none of 1..127.
+    pub fn commissioned_node_id(&self) -> Option<NodeId> {
+        NodeId::new(self.commissioning()?.node_id()?.known()?).ok()
     }
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::{KeyName, NumberErrorKind, ValueErrorKind};
-use edskit_types::{AccessType, Bitrate, DataType, ObjectCode, PdoDirection};
+use edskit_types::{AccessType, Bitrate, DataType, NodeId, ObjectCode, PdoDirection};
 use proptest::prelude::*;
 
 const DEVICE: &str = "\
@@ -176,6 +176,7 @@ fn commissioning_is_read_in_both_spellings() {
             Datasheet::parse(format!("[{name}]\nNodeID=0x05\nBaudrate=250\nCANopenManager=1\n").as_bytes());
         let commissioning = sheet.commissioning().unwrap();
         assert_eq!(commissioning.node_id().unwrap().known(), Some(5));
+        assert_eq!(sheet.commissioned_node_id(), NodeId::new(5).ok());
         assert_eq!(commissioning.baudrate().unwrap().known(), Some(250));
         assert_eq!(commissioning.canopen_manager().unwrap().known(), Some(true));
     }

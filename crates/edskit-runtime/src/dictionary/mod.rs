@@ -15,7 +15,7 @@ pub(crate) use value::{copy, raw};
 
 #[cfg(test)]
 pub(crate) mod testing {
-    use super::{Entry, Flags};
+    use super::{Entry, Flags, Table};
     use edskit_types::{DataType, Index, SubIndex};
 
     /// An entry of which only the place matters.
@@ -28,5 +28,10 @@ pub(crate) mod testing {
             offset: 0,
             size: 1,
         }
+    }
+
+    /// A table of these entries and nothing else.
+    pub(crate) fn table(entries: &[Entry]) -> Table<'_> {
+        Table { entries, constants: &[], defaults: &[], limits: &[], dummies: 0, fingerprint: 0 }
     }
 }

@@ -231,7 +231,7 @@ fn rank(data_type: DataType, bits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dictionary::Limits;
+    use crate::dictionary::{Limits, testing::table};
 
     fn entry(data_type: DataType, flags: Flags, offset: u16, size: u16) -> Entry {
         Entry { index: Index(0x2000), sub_index: SubIndex(0), data_type, flags, offset, size }
@@ -243,14 +243,7 @@ mod tests {
     fn a_text_knows_its_length() {
         let entries = [entry(DataType::VisibleString, VARIABLE, 1, 4)];
         let defaults = [0xAA, 2, 0, b'o', b'k', 0, 0, 0xBB];
-        let table = Table {
-            entries: &entries,
-            constants: &[],
-            defaults: &defaults,
-            limits: &[],
-            dummies: 0,
-            fingerprint: 0,
-        };
+        let table = Table { defaults: &defaults, ..table(&entries) };
         let mut values = [0; 8];
         let mut objects = Objects::new(&table, &mut values);
         objects.restore(None, |_| true);
@@ -265,14 +258,7 @@ mod tests {
     #[test]
     fn constants_cannot_change() {
         let entries = [entry(DataType::Unsigned16, Flags::READ, 0, 2)];
-        let table = Table {
-            entries: &entries,
-            constants: &[0x34, 0x12],
-            defaults: &[],
-            limits: &[],
-            dummies: 0,
-            fingerprint: 0,
-        };
+        let table = Table { constants: &[0x34, 0x12], ..table(&entries) };
         let mut objects = Objects::new(&table, &mut []);
         let handle = Handle::<u16>::new(Position(0));
         objects.set(handle, 7);
@@ -285,14 +271,7 @@ mod tests {
         let number = entry(DataType::Unsigned32, VARIABLE, 0, 4);
         let text = entry(DataType::OctetString, VARIABLE, 0, 4);
         let entries = [number, text];
-        let table = Table {
-            entries: &entries,
-            constants: &[],
-            defaults: &[],
-            limits: &[],
-            dummies: 0,
-            fingerprint: 0,
-        };
+        let table = table(&entries);
         let objects = Objects::new(&table, &mut []);
         let check = |entry, length| objects.check_write(entry, length);
         assert_eq!(check(&number, Some(5)), Err(AbortCode::LENGTH_TOO_HIGH));
@@ -306,14 +285,7 @@ mod tests {
         let check = |data_type, low: u64, high: u64, data: &[u8]| {
             let entries = [entry(data_type, VARIABLE.and(Flags::LIMITED), 0, data.len() as u16)];
             let limits = [Limits { position: Position(0), low, high }];
-            let table = Table {
-                entries: &entries,
-                constants: &[],
-                defaults: &[],
-                limits: &limits,
-                dummies: 0,
-                fingerprint: 0,
-            };
+            let table = Table { limits: &limits, ..table(&entries) };
             Objects::new(&table, &mut []).check_value(Position(0), &entries[0], data)
         };
         let minus = |number: i64| number as u64;
@@ -349,14 +321,7 @@ mod tests {
             entry(DataType::Unsigned16, VARIABLE, 4, 2),
         ];
         let defaults = [0x80, 1, 0, 0x40, 0xE8, 3];
-        let table = Table {
-            entries: &entries,
-            constants: &[],
-            defaults: &defaults,
-            limits: &[],
-            dummies: 0,
-            fingerprint: 0,
-        };
+        let table = Table { defaults: &defaults, ..table(&entries) };
         let mut values = [0; 6];
         let mut objects = Objects::new(&table, &mut values);
         objects.restore(NodeId::new(5).ok(), |entry| entry.size == 4);

@@ -105,7 +105,7 @@ impl<'a> Table<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dictionary::{Flags, testing::entry};
+    use crate::dictionary::{Flags, testing::entry, testing::table};
     use proptest::prelude::*;
     use std::collections::BTreeSet;
     use std::vec::Vec;
@@ -113,14 +113,7 @@ mod tests {
     #[test]
     fn what_is_missing_says_so() {
         let entries = [entry(0x1000, 0), entry(0x1018, 0), entry(0x1018, 1), entry(0x1018, 4)];
-        let table = Table {
-            entries: &entries,
-            constants: &[],
-            defaults: &[],
-            limits: &[],
-            dummies: 0,
-            fingerprint: 0,
-        };
+        let table = table(&entries);
         let find = |index, sub_index| table.find(Index(index), SubIndex(sub_index));
         assert_eq!(find(0x1018, 4), Ok(Position(3)));
         assert_eq!(find(0x1000, 0), Ok(Position(0)));
@@ -145,14 +138,7 @@ mod tests {
             });
             let places: BTreeSet<(u16, u8)> = runs.chain(others.iter().copied()).collect();
             let entries: Vec<Entry> = places.iter().map(|(index, sub_index)| entry(*index, *sub_index)).collect();
-            let table = Table {
-                entries: &entries,
-                constants: &[],
-                defaults: &[],
-                limits: &[],
-                dummies: 0,
-                fingerprint: 0,
-            };
+            let table = table(&entries);
             for (place, entry) in entries.iter().enumerate() {
                 prop_assert_eq!(table.find(entry.index, entry.sub_index), Ok(Position(place as u16)));
             }
@@ -169,14 +155,7 @@ mod tests {
     fn limits_are_found_by_position() {
         let entries = [entry(0x1000, 0); 5];
         let limits = [1, 3].map(|position| Limits { position: Position(position), low: 0, high: 9 });
-        let table = Table {
-            entries: &entries,
-            constants: &[],
-            defaults: &[],
-            limits: &limits,
-            dummies: 0,
-            fingerprint: 0,
-        };
+        let table = Table { limits: &limits, ..table(&entries) };
         let found = [0, 1, 2, 3, 4].map(|position| table.limits(Position(position)).is_some());
         assert_eq!(found, [false, true, false, true, false]);
         assert!(!Flags::NONE.has(Flags::LIMITED));

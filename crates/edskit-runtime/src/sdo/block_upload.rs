@@ -128,7 +128,7 @@ impl Context<'_> {
             let offset = item.offset + u32::from(upload.sent) * SEGMENT as u32;
             let mut segment = [0; SEGMENT];
             let count = self.read_item(number, item, offset, &mut segment)?;
-            let is_last = item.ends_with(offset, count, SEGMENT);
+            let is_last = item.ends_with(offset, count);
             upload.sent += 1;
             let flag = if is_last { LAST_SEGMENT } else { 0 };
             let [a, b, c, d, e, f, g] = segment;

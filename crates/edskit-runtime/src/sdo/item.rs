@@ -1,6 +1,6 @@
 //! The value that a transfer is about: opening it, and moving its bytes.
 
-use super::Step;
+use super::{SEGMENT, Step};
 use crate::context::Context;
 use crate::dictionary::{Entry, Position, copy};
 use core::ops::Range;
@@ -40,9 +40,9 @@ impl Item {
         offset: 0,
     };
 
-    /// Whether a segment of so many bytes, of the most that one has, ends the value.
-    pub(super) fn ends_with(&self, offset: u32, count: usize, most: usize) -> bool {
-        count < most || self.length.is_some_and(|length| offset + count as u32 >= length)
+    /// Whether a segment of so many bytes from `offset` on ends the value.
+    pub(super) fn ends_with(&self, offset: u32, count: usize) -> bool {
+        count < SEGMENT || self.length.is_some_and(|length| offset + count as u32 >= length)
     }
 }
 

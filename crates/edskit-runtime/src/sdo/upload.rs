@@ -37,7 +37,7 @@ impl Context<'_> {
         super::take_toggle(toggle, command)?;
         let mut segment = [0; SEGMENT];
         let count = self.read_item(number, item, item.offset, &mut segment)?;
-        let is_last = item.ends_with(item.offset, count, SEGMENT);
+        let is_last = item.ends_with(item.offset, count);
         item.offset += count as u32;
         let [a, b, c, d, e, f, g] = segment;
         let answer = (command & TOGGLE) | ((SEGMENT - count) as u8) << 1 | u8::from(is_last);

@@ -3,7 +3,7 @@
 use crate::files::unreadable;
 use crate::printable;
 use edskit_model::{Datasheet, DictionaryEntry, Document, Object};
-use edskit_types::{Index, NodeId, SubIndex};
+use edskit_types::{Index, SubIndex};
 use std::fs;
 use std::path::Path;
 
@@ -25,12 +25,6 @@ impl KnownDevice {
             ));
         }
         Ok(Self { file, sheet })
-    }
-
-    /// The node-ID that a DCF commissions.
-    pub(crate) fn node_id(&self) -> Option<NodeId> {
-        let node_id = self.sheet.commissioning()?.node_id()?.known()?;
-        NodeId::new(node_id).ok()
     }
 
     pub(crate) fn entry(&self, index: Index, sub_index: SubIndex) -> Option<DictionaryEntry<'_>> {

@@ -71,7 +71,7 @@ impl Network {
                 };
             let device = KnownDevice::read(Path::new(file))?;
             let node_id = node_id
-                .or_else(|| device.node_id())
+                .or(device.sheet.commissioned_node_id())
                 .ok_or_else(|| format!("{file}: the file names no node-ID; write {file}@5 for node 5"))?;
             network.add(node_id, device)?;
         }

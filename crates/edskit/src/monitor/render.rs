@@ -4,7 +4,7 @@ use super::decode::{Lss, Message, PdoValue, Sdo};
 use crate::value;
 use edskit_runtime::Frame;
 use edskit_types::{EmergencyCode, Index, SubIndex};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Below it are the data types, which fill gaps in PDOs and mean nothing.
 const FIRST_OBJECT: u16 = 0x1000;
@@ -19,7 +19,7 @@ pub(super) struct Report<'a> {
 
 /// The same as JSON.
 #[derive(Serialize)]
-pub(super) struct Json<'a> {
+struct Json<'a> {
     /// Microseconds since 1970.
     time: u64,
     can_id: u32,
@@ -30,18 +30,21 @@ pub(super) struct Json<'a> {
     message: &'a Message,
 }
 
-impl Report<'_> {
-    pub(super) fn json(&self) -> Json<'_> {
-        Json {
+impl Serialize for Report<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let json = Json {
             time: self.time,
             can_id: self.frame.can_id().raw(),
             extended: self.frame.can_id().is_extended(),
             remote: self.frame.is_remote(),
             data: value::digits(self.frame.data()),
             message: &self.message,
-        }
+        };
+        json.serialize(serializer)
     }
+}
 
+impl Report<'_> {
     /// `07:30:00.123456  605h  40 18 10 01 00 00 00 00  node 5 SDO >  read 1018h:01h Identity object/Vendor-ID`
     pub(super) fn text(&self) -> String {
         let data = if self.frame.is_remote() {

@@ -10,7 +10,7 @@ use crate::printable;
 use crate::{Exit, Streams};
 use edskit_model::nature::Nature;
 use edskit_model::{Datasheet, SectionKind};
-use edskit_types::{Index, NodeId, SubIndex};
+use edskit_types::{Index, SubIndex};
 use serde::Serialize;
 use std::io::{self, Write};
 use view::{ObjectView, PdoView, Viewer};
@@ -22,8 +22,7 @@ pub(crate) fn run(arguments: &ShowArguments, streams: &mut Streams) -> io::Resul
         streams.complain(format_args!("{name}: this is no EDS or DCF; `edskit lint` says what it is"));
         return Ok(Exit::Failed);
     }
-    let own_node_id = || sheet.commissioning()?.node_id()?.known().and_then(|value| NodeId::new(value).ok());
-    let viewer = Viewer { sheet: &sheet, node_id: arguments.node_id.or_else(own_node_id) };
+    let viewer = Viewer { sheet: &sheet, node_id: arguments.node_id.or(sheet.commissioned_node_id()) };
     let Some(place) = arguments.place else {
         let view = viewer.device();
         return print(&view, arguments.format, streams, |view, out| human::device(view, out));

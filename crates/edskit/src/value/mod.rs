@@ -4,7 +4,7 @@ mod calendar;
 mod reading;
 mod showing;
 
-pub(crate) use calendar::{clock, time_of_day};
+pub(crate) use calendar::clock;
 pub(crate) use reading::bytes_of;
 pub(crate) use showing::{digits, hex, json, text, untyped};
 

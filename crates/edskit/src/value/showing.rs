@@ -3,6 +3,7 @@
 use super::calendar::time_of_day;
 use super::size;
 use crate::printable;
+use edskit_runtime::Value as _;
 use edskit_types::{DataType, DataTypeKind};
 use serde_json::{Value as Json, json};
 
@@ -19,10 +20,10 @@ pub(crate) fn text(data_type: DataType, bytes: &[u8]) -> String {
             _ => format!("{} (neither 0 nor 1)", hex(bytes)),
         },
         DataTypeKind::Unsigned => {
-            let value = unsigned(bytes);
+            let value = u64::from_bytes(bytes);
             format!("{value} ({})", in_hex(value, bytes.len()))
         }
-        DataTypeKind::Signed => match signed(bytes) {
+        DataTypeKind::Signed => match i64::from_bytes(bytes) {
             value if value < 0 => format!("{value} (-{})", in_hex(value.unsigned_abs(), bytes.len())),
             value => format!("{value} ({})", in_hex(value.unsigned_abs(), bytes.len())),
         },
@@ -57,13 +58,16 @@ pub(crate) fn json(data_type: DataType, bytes: &[u8]) -> Json {
             [1] => json!(true),
             _ => json!(digits(bytes)),
         },
-        DataTypeKind::Unsigned => json!(unsigned(bytes)),
-        DataTypeKind::Signed => json!(signed(bytes)),
-        // JSON has neither infinities nor NaN.
-        DataTypeKind::Real => match (number_of(bytes), real(bytes)) {
-            (Some(value), _) if value.is_finite() => json!(value),
-            (_, text) => json!(text),
-        },
+        DataTypeKind::Unsigned => json!(u64::from_bytes(bytes)),
+        DataTypeKind::Signed => json!(i64::from_bytes(bytes)),
+        DataTypeKind::Real => {
+            let text = real(bytes);
+            // By its notation, so that 0.1 does not become 0.10000000149; JSON has neither infinities nor NaN.
+            match text.parse::<f64>() {
+                Ok(value) if value.is_finite() => json!(value),
+                _ => json!(text),
+            }
+        }
         DataTypeKind::VisibleString => json!(String::from_utf8_lossy(bytes).trim_end_matches('\0')),
         DataTypeKind::UnicodeString => json!(utf16(bytes)),
         DataTypeKind::TimeOfDay | DataTypeKind::TimeDifference => json!(text(data_type, bytes)),
@@ -75,7 +79,7 @@ pub(crate) fn json(data_type: DataType, bytes: &[u8]) -> Json {
 pub(crate) fn untyped(bytes: &[u8]) -> String {
     match bytes.len() {
         0 => "(no bytes)".to_owned(),
-        1 | 2 | 4 | 8 => format!("{} ({})", hex(bytes), unsigned(bytes)),
+        1 | 2 | 4 | 8 => format!("{} ({})", hex(bytes), u64::from_bytes(bytes)),
         _ => hex(bytes),
     }
 }
@@ -95,38 +99,21 @@ fn in_hex(value: u64, length: usize) -> String {
     format!("{value:0width$X}h", width = 2 * length)
 }
 
-fn unsigned(bytes: &[u8]) -> u64 {
-    bytes.iter().take(8).rev().fold(0, |value, byte| value << 8 | u64::from(*byte))
-}
-
-fn signed(bytes: &[u8]) -> i64 {
-    let unused = 64 - 8 * bytes.len().clamp(1, 8) as u32;
-    (unsigned(bytes) << unused) as i64 >> unused
-}
-
-fn number_of(bytes: &[u8]) -> Option<f64> {
-    if let Ok(bytes) = <[u8; 4]>::try_from(bytes) {
-        // By its shortest notation, so that 0.1 does not become 0.10000000149.
-        return f32::from_le_bytes(bytes).to_string().parse().ok();
-    }
-    <[u8; 8]>::try_from(bytes).ok().map(f64::from_le_bytes)
-}
-
+/// The shortest notation of four or eight bytes that reads as the same number again.
 fn real(bytes: &[u8]) -> String {
-    match (<[u8; 4]>::try_from(bytes), <[u8; 8]>::try_from(bytes)) {
-        (Ok(bytes), _) => f32::from_le_bytes(bytes).to_string(),
-        (_, Ok(bytes)) => f64::from_le_bytes(bytes).to_string(),
-        _ => hex(bytes),
+    match bytes.len() {
+        4 => f32::from_bytes(bytes).to_string(),
+        _ => f64::from_bytes(bytes).to_string(),
     }
 }
 
 fn utf16(bytes: &[u8]) -> String {
-    let units: Vec<u16> = bytes.chunks(2).map(|pair| unsigned(pair) as u16).collect();
+    let units: Vec<u16> = bytes.chunks(2).map(u16::from_bytes).collect();
     String::from_utf16_lossy(&units).trim_end_matches('\0').to_owned()
 }
 
 /// Days and milliseconds.
 fn time(bytes: &[u8]) -> (u16, u32) {
-    let raw = unsigned(bytes);
+    let raw = u64::from_bytes(bytes);
     ((raw >> 32) as u16, raw as u32 & 0x0FFF_FFFF)
 }

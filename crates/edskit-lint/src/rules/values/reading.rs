@@ -1,7 +1,8 @@
 //! What a literal can mean to the readers in use, and which values a variable has.
 
+use crate::evaluate::commissioned;
 use crate::inline_comment;
-use crate::{Context, FileKind, Variable};
+use crate::{Context, Variable};
 use core::fmt;
 use edskit_model::{Entry, Field, KeyName, Radix, Section, SectionKind, Value};
 use edskit_types::{DataType, NodeId};
@@ -81,9 +82,7 @@ impl Readings {
 
 /// The node-IDs that formulas are tried with: the one that a DCF commissions, else the lowest and the highest.
 pub(super) fn node_ids(context: &Context<'_>) -> [NodeId; 2] {
-    let commissioned = || context.sheet.commissioning()?.node_id()?.known();
-    let known = (context.kind == FileKind::Dcf).then(commissioned).flatten();
-    match known.and_then(|node_id| NodeId::new(node_id).ok()) {
+    match commissioned(context) {
         Some(node_id) => [node_id; 2],
         None => [NodeId::MIN, NodeId::MAX],
     }

@@ -1,6 +1,7 @@
 //! Layer setting services (CiA 305).
 
 use super::Message;
+use edskit_types::Bitrate;
 use serde::Serialize;
 
 /// An LSS message.
@@ -10,10 +11,6 @@ pub(crate) struct Lss {
     pub(crate) is_request: bool,
     pub(crate) what: String,
 }
-
-/// kbit/s of the standard bit timing table.
-const BIT_RATES: [Option<u16>; 9] =
-    [Some(1000), Some(800), Some(500), Some(250), Some(125), None, Some(50), Some(20), Some(10)];
 
 /// The parts of an LSS address, in the order of the command specifiers.
 const PARTS: [&str; 4] = ["vendor-ID", "product code", "revision number", "serial number"];
@@ -37,8 +34,8 @@ impl Lss {
             0x04 => format!("switch all to an unknown state, {a}"),
             0x11 if a == 0xFF => "take the node-ID away".to_owned(),
             0x11 => format!("configure node-ID {a}"),
-            0x13 => match BIT_RATES.get(usize::from(b)).copied().flatten() {
-                Some(rate) if a == 0 => format!("configure {rate} kbit/s"),
+            0x13 => match Bitrate::from_lss_index(b) {
+                Some(bit_rate) if a == 0 => format!("configure {bit_rate}"),
                 _ if a == 0 && b == 9 => "configure automatic bit rate detection".to_owned(),
                 _ => format!("configure bit timing {b} of table {a}"),
             },

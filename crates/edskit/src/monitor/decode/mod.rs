@@ -8,7 +8,7 @@ pub(super) use lss::Lss;
 pub(super) use sdo::Sdo;
 
 use super::network::{MappedEntry, Network, Shown, show};
-use edskit_runtime::Frame;
+use edskit_runtime::{Frame, Value as _};
 use edskit_types::{NodeId, Party, SdoMessage};
 use sdo::Channel;
 use serde::Serialize;
@@ -152,7 +152,7 @@ impl Decoder {
 
 /// The values of a PDO by its mapping, bit by bit (CiA 301 v4.2, 7.2.2).
 fn pdo(node: u8, party: Party, mapping: Option<&[MappedEntry]>, data: &[u8]) -> Message {
-    let all = data.iter().rev().fold(0_u64, |all, byte| all << 8 | u64::from(*byte));
+    let all = u64::from_bytes(data);
     let (mut first, mut values) = (0_u32, Vec::new());
     for entry in mapping.unwrap_or_default() {
         let (start, end) = (first, first + u32::from(entry.bits));

@@ -2,9 +2,9 @@
 
 use super::Message;
 use crate::value;
-use edskit_types::{EmergencyCode, ErrorRegister, NmtCommand, NmtState};
+use edskit_types::{DataType, EmergencyCode, ErrorRegister, NmtCommand, NmtState};
 
-/// Seven bits of the state, and the toggle bit of guarding.
+/// The toggle bit of guarding, above the seven bits of the state.
 const TOGGLE: u8 = 0x80;
 
 /// CiA 301 v4.2, 7.2.8.2.1.
@@ -32,9 +32,7 @@ pub(super) fn sync(data: &[u8]) -> Option<Message> {
 
 /// CiA 301 v4.2, 7.2.6.
 pub(super) fn time(data: &[u8]) -> Option<Message> {
-    let &[a, b, c, d, low, high] = data else { return None };
-    let milliseconds = u32::from_le_bytes([a, b, c, d]) & 0x0FFF_FFFF;
-    Some(Message::Time { time: value::time_of_day(u16::from_le_bytes([low, high]), milliseconds) })
+    (data.len() == 6).then(|| Message::Time { time: value::text(DataType::TimeOfDay, data) })
 }
 
 /// CiA 301 v4.2, 7.2.7.
