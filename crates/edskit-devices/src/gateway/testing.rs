@@ -44,12 +44,13 @@ impl Storage for OneRecord {
     }
 }
 
-/// A configuration with these values.
-pub(super) fn configured(values: &[(Owner, u16, i32)]) -> Configuration {
+/// A configuration with these parameters set.
+pub(super) fn configuration(settings: &[(Owner, u16, i32)]) -> Configuration {
     let mut configuration = Configuration::new();
-    for (owner, number, value) in values {
-        let parameter = Parameter::find(*owner, *number).unwrap();
-        configuration.set(parameter, *value).unwrap();
+    for &(owner, number, value) in settings {
+        let parameter =
+            Parameter::find(owner, number).unwrap_or_else(|| panic!("{owner:?} has no P{number}"));
+        configuration.set(parameter, value).unwrap();
     }
     configuration
 }
@@ -62,16 +63,16 @@ pub(super) struct Bench {
 
 impl Bench {
     /// A gateway that has just got its supply.
-    pub(super) fn off(values: &[(Owner, u16, i32)]) -> Self {
-        let gateway = Gateway::new(configured(values), Engine::new(), OneRecord::default());
+    pub(super) fn off(settings: &[(Owner, u16, i32)]) -> Self {
+        let gateway = Gateway::new(configuration(settings), Engine::new(), OneRecord::default());
         let mut bench = Self { gateway, now: Instant(0) };
         assert_eq!(bench.poll(), []);
         bench
     }
 
     /// A gateway in pre-operational, its boot-up message taken.
-    pub(super) fn new(values: &[(Owner, u16, i32)]) -> Self {
-        let mut bench = Self::off(values);
+    pub(super) fn new(settings: &[(Owner, u16, i32)]) -> Self {
+        let mut bench = Self::off(settings);
         let node_id = bench.gateway.parameters().node_id().get();
         let sent = bench.pass(231_250);
         assert_eq!(sent, [(231_250, frame(0x700 + u16::from(node_id), &[0]))]);
@@ -80,8 +81,8 @@ impl Bench {
     }
 
     /// A gateway in operational, in whose present main cycle of the governor nothing is sent any more.
-    pub(super) fn started(values: &[(Owner, u16, i32)]) -> Self {
-        let mut bench = Self::new(values);
+    pub(super) fn started(settings: &[(Owner, u16, i32)]) -> Self {
+        let mut bench = Self::new(settings);
         assert_eq!(bench.nmt(1), []);
         bench.events();
         bench

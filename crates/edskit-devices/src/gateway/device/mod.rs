@@ -19,7 +19,7 @@ use super::governor::Governor;
 use super::identification::Identification;
 use super::parameter::{Owner, Parameter};
 use super::parameter_memory::ParameterMemory;
-use edskit_runtime::{Device, Frame, Instant, NoStorage, Node, Reset, Settings, Storage};
+use edskit_runtime::{Device, Frame, Instant, NoStorage, Node, Parts, Reset, Settings, Storage};
 use side::{GatewaySide, GovernorSide, Phase};
 
 /// The Heinzmann CANopen gateway with the digital governor behind it.
@@ -48,8 +48,19 @@ use side::{GatewaySide, GovernorSide, Phase};
 /// ```
 #[derive(Debug)]
 pub struct Gateway<G, S> {
-    node: Node<Dictionary, NoStorage>,
+    node: Node<Unmonitored, NoStorage>,
     plant: Plant<G, S>,
+}
+
+/// The generated dictionary without the heartbeat consumer of CiA 301: the gateway monitors its partner itself, in its
+/// main cycles and in operational only (7.2.3; GW-NOTE-27), and stays in its state when it is missed (GW-HB-05).
+#[derive(Debug)]
+struct Unmonitored(Dictionary);
+
+impl edskit_runtime::Dictionary for Unmonitored {
+    fn parts(&mut self) -> Parts<'_> {
+        Parts { consumers: &mut [], ..self.0.parts() }
+    }
 }
 
 /// Everything behind the node.
@@ -67,7 +78,7 @@ struct Plant<G, S> {
 }
 
 /// A node with the node-ID that is in effect, before its first call.
-fn node(configuration: &Configuration) -> Node<Dictionary, NoStorage> {
+fn node(configuration: &Configuration) -> Node<Unmonitored, NoStorage> {
     let settings = Settings {
         node_id: Some(configuration.node_id()),
         // GW-EDS-05, GW-SDO-01
@@ -75,7 +86,7 @@ fn node(configuration: &Configuration) -> Node<Dictionary, NoStorage> {
         has_block_transfer: false,
         ..Settings::default()
     };
-    Node::new(Dictionary::new(), settings, NoStorage)
+    Node::new(Unmonitored(Dictionary::new()), settings, NoStorage)
 }
 
 impl<G: Governor, S: Storage> Gateway<G, S> {

@@ -4,6 +4,7 @@ use super::super::configuration::Configuration;
 use super::super::control_unit::ControlUnit;
 use super::super::error::{CanOpenError, CanOpenErrors, GatewayError};
 use super::super::governor::Governor;
+use super::super::inputs::Inputs;
 use super::super::parameter::Owner;
 use super::super::pdo::Pdo;
 use super::super::state::State;
@@ -95,6 +96,12 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
     /// The faults that last.
     pub fn faults(&self) -> impl Iterator<Item = Fault> {
         self.plant.faults.iter()
+    }
+
+    /// What the governor gets from CANopen at present.
+    #[must_use]
+    pub fn inputs(&self) -> Inputs<'_> {
+        self.plant.inputs()
     }
 
     /// The governor's model.

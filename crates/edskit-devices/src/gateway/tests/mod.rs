@@ -1,25 +1,16 @@
 //! The worked examples of the manual and the statements of the ledger, by chapter.
 
+mod device;
 mod identifiers;
 mod parameters;
 mod rpdos;
 mod times;
 mod tpdos;
 
+use super::testing::configuration;
 use super::*;
 use std::string::{String, ToString};
 use std::vec::Vec;
-
-/// A configuration with these parameters set.
-fn configuration(settings: &[(Owner, u16, i32)]) -> Configuration {
-    let mut configuration = Configuration::new();
-    for &(owner, number, value) in settings {
-        let parameter =
-            Parameter::find(owner, number).unwrap_or_else(|| panic!("{owner:?} has no P{number}"));
-        configuration.set(parameter, value).unwrap();
-    }
-    configuration
-}
 
 fn governor(settings: &[(u16, i32)]) -> Vec<(Owner, u16, i32)> {
     settings.iter().map(|&(number, value)| (Owner::Governor, number, value)).collect()
