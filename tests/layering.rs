@@ -19,7 +19,7 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-types", &[], Only(&[])),
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
     ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["memchr", "serde", "toml"])),
-    ("edskit-devices", &["edskit-types"], Only(&[])),
+    ("edskit-devices", &["edskit-types", "edskit-runtime", "edskit-codegen"], Only(&["heapless"])),
     ("edskit-host", &["edskit-types", "edskit-runtime"], Any),
     ("edskit-runtime", &["edskit-types"], Only(&["embedded-can"])),
     (
@@ -81,6 +81,9 @@ const OUTER_WORDS: &[&str] = &[
     "eprint!",
     "eprintln!",
 ];
+
+/// The crates that run on a device. Of the workspace they depend on each other only; a build script may on more.
+const DEVICE_CRATES: [&str; 3] = ["edskit-types", "edskit-runtime", "edskit-devices"];
 
 /// The one file of a library that may: it is for build scripts, which read and write files and talk to cargo.
 const BUILD_SCRIPT_FILE: &str = "edskit-codegen/src/compile.rs";
@@ -155,21 +158,27 @@ fn libraries_open_no_file_print_nothing_and_know_no_clock() {
 }
 
 #[test]
-fn crates_for_devices_need_neither_std_nor_an_allocator_nor_other_crates() {
-    let metadata = metadata();
-    for name in ["edskit-types", "edskit-devices"] {
-        let packages = metadata.workspace_packages();
-        let package = packages.iter().find(|package| package.name == name).expect("the crate is there");
-        let is_foreign = |dependency: &&Dependency| !is_of_workspace(dependency);
-        let foreign = package.dependencies.iter().filter(is_foreign);
-        assert!(
-            foreign.into_iter().all(|dependency| dependency.kind == DependencyKind::Development),
-            "{name}"
-        );
+fn crates_for_devices_need_neither_std_nor_an_allocator() {
+    for package in device_crates(&metadata()) {
         for (path, text) in sources(&source_folder(package)) {
             let is_root = path.ends_with("src/lib.rs");
             assert!(!is_root || text.contains("#![no_std]\n"), "{} lacks #![no_std]", path.display());
             assert!(!text.contains("extern crate alloc"), "{}: no allocation", path.display());
+        }
+    }
+}
+
+#[test]
+fn crates_for_devices_depend_on_the_desk_half_in_build_scripts_only() {
+    for package in device_crates(&metadata()) {
+        for dependency in package.dependencies.iter().filter(|dependency| is_of_workspace(dependency)) {
+            let name = dependency.name.as_str();
+            let is_of_build_script = dependency.kind == DependencyKind::Build;
+            assert!(
+                is_of_build_script || DEVICE_CRATES.contains(&name),
+                "{} must not depend on {name}, but its build script may",
+                package.name
+            );
         }
     }
 }
@@ -209,6 +218,13 @@ fn libraries(metadata: &Metadata) -> Vec<&Package> {
     let libraries: Vec<&Package> = metadata.workspace_packages().into_iter().filter(is_library).collect();
     assert_eq!(libraries.len(), 6);
     libraries
+}
+
+fn device_crates(metadata: &Metadata) -> Vec<&Package> {
+    let is_on_device = |package: &&Package| DEVICE_CRATES.contains(&package.name.as_str());
+    let packages: Vec<&Package> = metadata.workspace_packages().into_iter().filter(is_on_device).collect();
+    assert_eq!(packages.len(), DEVICE_CRATES.len());
+    packages
 }
 
 fn source_folder(package: &Package) -> PathBuf {

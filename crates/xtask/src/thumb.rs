@@ -25,7 +25,8 @@ pub(crate) fn no_std() -> Outcome {
     with_toolchain(|bin| {
         let mut check = cargo(bin);
         check.env("CARGO_TARGET_DIR", root().join("target/thumb"));
-        run(check.args(["check", "--target", SMALLEST, "-p", "edskit-types", "-p", "edskit-runtime"]))
+        let crates = ["edskit-types", "edskit-runtime", "edskit-devices"].map(|name| ["-p", name]);
+        run(check.args(["check", "--target", SMALLEST]).args(crates.as_flattened()))
     })
 }
 
