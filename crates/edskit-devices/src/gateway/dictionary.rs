@@ -70,6 +70,15 @@ mod tests {
         assert_flags(0x2000..=0x2005, 0..=0, 6, READ);
     }
 
+    // GW-OD-20
+    #[test]
+    fn counts_and_2005h_cannot_be_mapped() {
+        for entry in TABLE.entries.iter().filter(|entry| entry.index.0 >= 0x2000) {
+            let is_data = entry.sub_index.0 > 0;
+            assert_eq!(entry.flags.has(Flags::TPDO), is_data, "{entry:?}");
+        }
+    }
+
     #[test]
     fn a_dictionary_takes_what_the_device_says() {
         let mut dictionary = Dictionary::new();

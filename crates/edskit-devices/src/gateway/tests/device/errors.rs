@@ -342,7 +342,7 @@ fn the_error_register_and_2005h() {
     assert_eq!(registers(&mut bench), (0x11, 1 << 0 | 1 << 13));
 }
 
-// GW-APP-01, GW-APP-42, GW-NOTE-44
+// GW-APP-42, GW-NOTE-44
 #[test]
 fn the_timer_runs_in_milliseconds_and_begins_anew() {
     let mut bench = Bench::new(&[]);

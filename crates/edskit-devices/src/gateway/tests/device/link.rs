@@ -86,7 +86,7 @@ fn what_the_heinzmann_bus_shows() {
     }
 }
 
-// GW-CFG-37, GW-CFG-39, GW-CFG-43, GW-NOTE-41
+// GW-APP-01, GW-CFG-37, GW-CFG-39, GW-CFG-43, GW-NOTE-41
 #[test]
 fn the_bit_rate_of_canopen() {
     let kbit = |settings: &[(u16, i32)]| {
@@ -94,5 +94,6 @@ fn the_bit_rate_of_canopen() {
     };
     assert_eq!(kbit(&[(427, 1), (426, 125), (4426, 0)]), Some(125));
     assert_eq!([250, 500, 1000].map(|rate| kbit(&[(426, rate)])), [Some(250), Some(500), Some(1000)]);
+    assert_eq!(kbit(&[(426, 500), (416, 125)]), Some(500), "the HEINZMANN bus has its own");
     assert_eq!(kbit(&[(4426, 1), (420, 3)]), None, "manual timing has no formula");
 }
