@@ -1,7 +1,9 @@
-//! The Heinzmann CANopen gateway for digital governors: its configuration.
+//! The Heinzmann CANopen gateway for digital governors: its configuration, and the live device.
 //!
 //! Source is the manual DG 04 005-d / 07-04; "7.3" and the like are its sections, "GW-CFG-17" and the like the
-//! statements of the project's ledger on it.
+//! statements of the project's ledger on it; `docs/conformance/gateway.md` says which test shows which.
+//!
+//! # Configuration
 //!
 //! A [`Configuration`] holds the parameters of the gateway and those of the governor that decide on CANopen. Both units
 //! number their parameters by themselves, so that each [`Parameter`] says whose it is ([`Owner`], GW-NOTE-20). From the
@@ -26,6 +28,12 @@
 //! # Ok::<(), edskit_devices::gateway::OutOfRange>(())
 //! ```
 //!
+//! # The device
+//!
+//! [`Gateway`] is both control units with the link between them and the node on CANopen. A [`Governor`] is what the
+//! digital governor measures and does; [`Engine`] is a simple one. [`State`] is the state machine on CANopen, [`Fault`]
+//! what can go wrong around the units, [`GatewayError`] and [`CanOpenError`] what they show of it, [`Event`] what happens.
+//!
 //! # Choices where the manual is silent
 //!
 //! * Defaults: the manual prints none. The ones here are those of its examples: node-ID 1, 125 kbit/s (GW-GAP-13), node
@@ -34,6 +42,13 @@
 //!   [`NamedSignals`] knows the seven that the manual names.
 //! * Where the lists of switch functions and sensors end ("from 811 on", "from 900 on"): with their hundreds, at 899 and
 //!   999, and in step with these at 4899 and 4999. The manual names a few members only.
+//! * The initialisation: the governor sends all its telegrams in one of its main cycles and the command to go to
+//!   pre-operational in the next; a failed attempt is followed by the next one a main cycle later.
+//! * When a silent unit is missed (7.2.1): after 32 main cycles of the unit that waits, about half a second.
+//! * When monitoring looks: once in a main cycle. Its time runs from the main cycle that has seen the last frame.
+//! * The phase of a cyclic TPDO: all count the governor's main cycles from its start.
+//! * What errors of the memories and the program do (3076 to 3094) lasts until they are cleared; what faults of the link
+//!   do (3070, 3071) ends with the fault, and the governor initialises the gateway anew (GW-NOTE-30).
 
 mod amount;
 mod check;
