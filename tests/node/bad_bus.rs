@@ -1,7 +1,8 @@
 //! SDO transfers over a bus that loses frames, doubles them and is late.
 
+use crate::everything;
 use crate::line::Line;
-use edskit_codegen::{Layout, parse};
+use edskit_codegen::Layout;
 use edskit_host::sdo::{SdoClient, SdoError, SdoMode};
 use edskit_host::{Bus, Delay, Duplication, Loss};
 use edskit_runtime::Microseconds;
@@ -62,8 +63,7 @@ struct Tally {
 
 #[test]
 fn every_transfer_ends_and_the_node_recovers() {
-    let eds = edskit_tests::read(&edskit_tests::root().join("tests/fixtures/nodes/Everything.eds"));
-    let layout = parse(&eds, None).expect("the file can be laid out");
+    let layout = everything();
     for seed in SEEDS {
         let bad = run(&layout, seed, LOSS, DUPLICATION);
         assert!(bad.succeeded > VALUES / 4 && bad.failed > VALUES / 10, "seed {seed}: {bad:?}");
@@ -72,8 +72,7 @@ fn every_transfer_ends_and_the_node_recovers() {
 
 #[test]
 fn a_bus_that_is_only_late_fails_nothing() {
-    let eds = edskit_tests::read(&edskit_tests::root().join("tests/fixtures/nodes/Everything.eds"));
-    let layout = parse(&eds, None).expect("the file can be laid out");
+    let layout = everything();
     for seed in SEEDS {
         let late = run(&layout, seed, 0.0, 0.0);
         assert_eq!(late.failed, 0, "seed {seed}: {late:?}");

@@ -12,6 +12,7 @@
 //! | what a main loop drives | [`Device`], [`NodeDevice`] |
 //! | errors | [`Error`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
+//! | for SDO clients too | [`Crc`] |
 //!
 //! A dictionary is generated from an EDS ([`include_dictionary!`]); what comes out is the like of this thermometer:
 //!
@@ -74,7 +75,6 @@
 //! // The next thing to do is the heartbeat.
 //! assert_eq!(node.next_deadline(Instant(5_000)), Instant(1_000_000));
 //! ```
-//! | for SDO clients too | [`Crc`] |
 #![no_std]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]

@@ -1,5 +1,6 @@
 //! Frames at random, weighted so that they reach far into a node.
 
+use super::frame;
 use super::scripts::{Step, Writer};
 use edskit_codegen::Layout;
 use edskit_runtime::{Entry, Frame};
@@ -220,8 +221,4 @@ impl<'a> Frames<'a> {
     fn bytes(&mut self) -> [u8; 8] {
         self.random.u64(..).to_le_bytes()
     }
-}
-
-fn frame(can_id: u16, data: &[u8]) -> Frame {
-    Frame::new(CanId::standard(can_id).expect("it has eleven bits"), data)
 }

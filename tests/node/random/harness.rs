@@ -1,5 +1,6 @@
 //! A node on an imagined bus, and what must hold with every frame.
 
+use super::frame;
 use super::frames::Frames;
 use super::identifiers;
 use super::nmt::Nmt;
@@ -17,8 +18,9 @@ const CAPACITY: usize = 16;
 /// How often a node is polled at most between two frames: a late poll must not harm it either.
 const MOST_POLLS: usize = 8;
 const LSS_REQUEST: u16 = 0x7E5;
-/// The bits of a request that name the service, and block uploads among them: they are answered with several frames.
+/// The bits of a request that name the service.
 const SERVICE: u8 = 0xE0;
+/// The service whose requests are answered with several frames.
 const BLOCK_UPLOAD: u8 = 0xA0;
 
 pub(super) struct Harness<'a> {
@@ -56,13 +58,21 @@ pub(super) struct Reached {
 impl Reached {
     /// Whether every count is more than a handful.
     pub(super) fn is_far(self) -> bool {
-        let Self { frames_without_node_id, frames_in_pre_operational, frames_in_operational, .. } = self;
-        let Self { frames_in_stopped, lost_heartbeats, sdo_answers, sdo_aborts, .. } = self;
-        let Self { block_segments, pdos, lss_answers, .. } = self;
-        let states =
-            [frames_without_node_id, frames_in_pre_operational, frames_in_operational, frames_in_stopped];
-        let answers = [lost_heartbeats, sdo_answers, sdo_aborts, block_segments, pdos, lss_answers];
-        states.iter().all(|count| *count > 1000) && answers.iter().all(|count| *count > 20)
+        let states = [
+            self.frames_without_node_id,
+            self.frames_in_pre_operational,
+            self.frames_in_operational,
+            self.frames_in_stopped,
+        ];
+        let others = [
+            self.lost_heartbeats,
+            self.sdo_answers,
+            self.sdo_aborts,
+            self.block_segments,
+            self.pdos,
+            self.lss_answers,
+        ];
+        states.iter().all(|count| *count > 1000) && others.iter().all(|count| *count > 20)
     }
 }
 
@@ -271,7 +281,7 @@ impl<'a> Harness<'a> {
     fn sdo_of(&self, frame: &Frame) -> Option<[u8; 8]> {
         let own = self.nmt.node_id?;
         let is_communicating = matches!(self.nmt.state, NmtState::PreOperational | NmtState::Operational);
-        let is_request = frame.can_id().to_string() == format!("{:03X}h", 0x600 + u16::from(own));
+        let is_request = Some(frame.can_id()) == CanId::standard(0x600 + u16::from(own));
         frame.data().try_into().ok().filter(|_| is_communicating && is_request)
     }
 
@@ -320,8 +330,6 @@ impl<'a> Harness<'a> {
     /// for the device type.
     pub(super) fn come_back(&mut self) -> Result<(), String> {
         self.stall = 0;
-        let frame =
-            |can_id, data: &[u8]| Frame::new(CanId::standard(can_id).expect("it has eleven bits"), data);
         self.receive(&frame(0, &[130, 0]))?;
         if self.nmt.node_id.is_none() {
             let lss = [[0x04, 1], [0x11, NODE_ID], [0x04, 0]];

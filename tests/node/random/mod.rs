@@ -6,7 +6,9 @@ mod identifiers;
 mod nmt;
 mod scripts;
 
-use edskit_codegen::{Layout, parse};
+use edskit_codegen::Layout;
+use edskit_runtime::Frame;
+use edskit_types::CanId;
 use harness::Harness;
 use std::thread;
 
@@ -19,19 +21,15 @@ const SEEDS: [u64; 10] = [1, 2, 3, 5, 8, 13, 21, 34, 55, 89];
 #[test]
 fn no_frames_harm_the_node_of_the_conformance_check() {
     let Some(shared) = edskit_tests::shared("the device of the conformance check") else { return };
-    survives_every_seed(&edskit_tests::read(&shared.join("conformance/full.eds")));
+    survives_every_seed(&crate::layout_of(&shared.join("conformance/full.eds")));
 }
 
 #[test]
 fn no_frames_harm_a_node_with_every_service() {
-    survives_every_seed(&edskit_tests::read(
-        &edskit_tests::root().join("tests/fixtures/nodes/Everything.eds"),
-    ));
+    survives_every_seed(&crate::everything());
 }
 
-fn survives_every_seed(eds: &[u8]) {
-    let layout = parse(eds, None).expect("the file can be laid out");
-    let layout = &layout;
+fn survives_every_seed(layout: &Layout) {
     let failures: Vec<String> = thread::scope(|scope| {
         let runs = SEEDS.map(|seed| (seed, scope.spawn(move || run(layout, seed))));
         let outcome = |(seed, run): (u64, thread::ScopedJoinHandle<'_, Result<(), String>>)| {
@@ -41,6 +39,10 @@ fn survives_every_seed(eds: &[u8]) {
         runs.into_iter().filter_map(outcome).collect()
     });
     assert!(failures.is_empty(), "{failures:#?}");
+}
+
+fn frame(can_id: u16, data: &[u8]) -> Frame {
+    Frame::new(CanId::standard(can_id).expect("it has eleven bits"), data)
 }
 
 /// One run; afterwards the node answers as if nothing had happened, and once more after a power cycle with what was
@@ -53,7 +55,6 @@ fn run(layout: &Layout, seed: u64) -> Result<(), String> {
         harness.step().map_err(|problem| format!("frame {number}: {problem}"))?;
     }
     let reached = harness.reached();
-
     if !reached.is_far() {
         return Err(format!("the frames did not get far: {reached:?}"));
     }

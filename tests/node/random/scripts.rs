@@ -1,5 +1,6 @@
 //! Sequences of frames that single ones at random would hardly ever make.
 
+use super::frame;
 use edskit_runtime::{Crc, Entry, Frame};
 use edskit_types::CanId;
 use fastrand::Rng;
@@ -196,8 +197,4 @@ impl Writer<'_> {
         self.lss(0x04, [0; 4], [0; 3]);
         self.script.push_back(Step::Frame(frame(0, &[130, 0])));
     }
-}
-
-fn frame(can_id: u16, data: &[u8]) -> Frame {
-    Frame::new(CanId::standard(can_id).expect("it has eleven bits"), data)
 }

@@ -48,7 +48,8 @@ impl Report<'_> {
     /// `07:30:00.123456  605h  40 18 10 01 00 00 00 00  node 5 SDO >  read 1018h:01h Identity object/Vendor-ID`
     pub(super) fn text(&self) -> String {
         let data = if self.frame.is_remote() {
-            format!("remote, {} bytes", self.frame.length())
+            let length = self.frame.length();
+            format!("remote, {length} byte{}", if length == 1 { "" } else { "s" })
         } else {
             value::hex(self.frame.data())
         };
@@ -63,7 +64,7 @@ fn meaning(message: &Message) -> String {
     let of_node = |node: u8, service: &str, text: &str| format!("node {node:<3} {service:<9} {text}");
     match message {
         Message::Nmt { command, node: Some(node) } => of_node(*node, "NMT", command),
-        Message::Nmt { command, node: None } => format!("all nodes NMT     {command}"),
+        Message::Nmt { command, node: None } => format!("all nodes {:<8} {command}", "NMT"),
         Message::Sync { counter: None } => "SYNC".to_owned(),
         Message::Sync { counter: Some(counter) } => format!("SYNC {counter}"),
         Message::Time { time } => format!("TIME {time}"),
@@ -123,5 +124,9 @@ fn pdo_text(values: &[PdoValue], note: Option<&str>) -> String {
         format!("{name} = {}", value.shown.text)
     });
     let text = parts.collect::<Vec<_>>().join(", ");
-    note.map_or_else(|| text.clone(), |note| format!("{text} ({note})"))
+    match note {
+        Some(note) if text.is_empty() => format!("({note})"),
+        Some(note) => format!("{text} ({note})"),
+        None => text,
+    }
 }

@@ -115,6 +115,18 @@ fn number_of(message: [u8; 8]) -> u32 {
     u32::from_le_bytes([message[4], message[5], message[6], message[7]])
 }
 
+/// `, 12 bytes`, where a message that begins a transfer says its length.
+fn said_length(is_said: bool, message: [u8; 8]) -> String {
+    if is_said { format!(", {} bytes", number_of(message)) } else { String::new() }
+}
+
+/// The value of an expedited transfer.
+fn expedited(message: [u8; 8]) -> Vec<u8> {
+    let command = message[0];
+    let unused = if command & 1 != 0 { usize::from(command >> 2 & 3) } else { 0 };
+    message[4..8 - unused].to_vec()
+}
+
 impl Channel {
     pub(super) fn request(&mut self, message: [u8; 8]) -> Step {
         if let Some(segment) = self.block_segment(message, true) {
@@ -143,8 +155,7 @@ impl Channel {
                 }
             },
             6 if command & 1 == 0 => {
-                let length =
-                    if command & 2 != 0 { format!(", {} bytes", number_of(message)) } else { String::new() };
+                let length = said_length(command & 2 != 0, message);
                 self.begin(&format!("write in blocks{length}"), message, true)
             }
             6 => self.end_of_blocks(message),
@@ -174,8 +185,7 @@ impl Channel {
                 _ => self.confirm(message),
             },
             6 if command & 1 == 0 => {
-                let length =
-                    if command & 2 != 0 { format!(", {} bytes", number_of(message)) } else { String::new() };
+                let length = said_length(command & 2 != 0, message);
                 self.at(message, format!("read in blocks begun{length}"))
             }
             6 => {
@@ -221,14 +231,12 @@ impl Channel {
     fn begin_write(&mut self, message: [u8; 8]) -> Step {
         let command = message[0];
         if command & 2 == 0 {
-            let length =
-                if command & 1 != 0 { format!(", {} bytes", number_of(message)) } else { String::new() };
+            let length = said_length(command & 1 != 0, message);
             return self.begin(&format!("write in segments{length}"), message, true);
         }
-        let length = if command & 1 != 0 { 4 - usize::from(command >> 2 & 3) } else { 4 };
         let mut step = self.begin("write", message, true);
         self.0 = None;
-        step.value = Some((message[4..4 + length].to_vec(), true));
+        step.value = Some((expedited(message), true));
         step
     }
 
@@ -241,13 +249,11 @@ impl Channel {
     fn read_begun(&mut self, message: [u8; 8]) -> Step {
         let command = message[0];
         if command & 2 == 0 {
-            let length =
-                if command & 1 != 0 { format!(", {} bytes", number_of(message)) } else { String::new() };
+            let length = said_length(command & 1 != 0, message);
             return self.at(message, format!("read in segments begun{length}"));
         }
-        let length = if command & 1 != 0 { 4 - usize::from(command >> 2 & 3) } else { 4 };
         self.0 = None;
-        let value = Some((message[4..4 + length].to_vec(), false));
+        let value = Some((expedited(message), false));
         Step { value, ..self.at(message, "value".to_owned()) }
     }
 

@@ -157,6 +157,7 @@ fn pdos_have_the_values_that_the_file_maps() {
     let frames = [
         "1A5h 01 9C FF 00 00 C0 3F",
         "1A5h 01 9C FF",
+        "1A5h",
         "1A5h 01 9C FF 00 00 C0 3F 00",
         "1A5h R7",
         "185h 01",
