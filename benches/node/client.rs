@@ -1,7 +1,6 @@
 //! An SDO client that does as little as possible.
 
-use crate::device::{BYTES, Device, LENGTH, NODE_ID, NUMBER};
-use std::hint::black_box;
+use crate::device::{BYTES, Device, NODE_ID, NUMBER};
 
 const SEGMENT: usize = 7;
 const MOST_SEGMENTS: u8 = 127;
@@ -86,12 +85,10 @@ pub(crate) fn upload_block<D: Device>(device: &mut D, into: &mut Vec<u8>) {
         }
         request = [0xA2, sequence, MOST_SEGMENTS, 0, 0, 0, 0, 0];
     }
-    let [command, checksum @ .., _, _, _, _, _] = ask(device, &request);
-    black_box(checksum);
+    let [command, ..] = ask(device, &request);
     assert_eq!(command & 0xE3, 0xC1);
     into.truncate(into.len() - usize::from(command >> 2 & 7));
     send(device, &[0xA1, 0, 0, 0, 0, 0, 0, 0]);
     // zencan takes the end of the transfer for an unknown request, and answers with an abort.
     while device.transmit().is_some() {}
-    debug_assert_eq!(into.len(), LENGTH);
 }

@@ -1,13 +1,13 @@
 //! edskit's side: the dictionary that edskit-codegen has generated of `fixtures/Bench.eds`.
 
-use crate::device::{Device, Mapping, bytes, start};
+use crate::device::{Device, Mapping, NODE_ID, bytes, start};
 use bench::objects as handles;
 use edskit_runtime::types::{CanId, Index, NodeId};
 use edskit_runtime::{Frame, Instant, NoApplication, NoStorage, Node, Settings};
 
 edskit_runtime::include_dictionary!("Bench");
 
-/// How much time passes between two calls.
+/// How many microseconds pass between two calls.
 const STEP: u64 = 10;
 
 pub(crate) struct Edskit {
@@ -17,8 +17,7 @@ pub(crate) struct Edskit {
 
 impl Edskit {
     pub(crate) fn new() -> Self {
-        let settings =
-            Settings { node_id: NodeId::new(crate::device::NODE_ID as u8).ok(), ..Settings::default() };
+        let settings = Settings { node_id: NodeId::new(NODE_ID as u8).ok(), ..Settings::default() };
         let node = Node::new(bench::Dictionary::new(), settings, NoStorage);
         let mut device = Self { node, now: Instant(0) };
         start(&mut device);
@@ -33,7 +32,7 @@ impl Device for Edskit {
     const NAME: &'static str = "edskit";
 
     fn receive(&mut self, can_id: u16, data: &[u8]) {
-        let can_id = CanId::standard(can_id).unwrap_or(CanId::NMT);
+        let can_id = CanId::standard(can_id).expect("it has eleven bits");
         self.node.receive(self.now, &Frame::new(can_id, data), &mut NoApplication);
     }
 

@@ -3,11 +3,11 @@
 use crate::device::{Device, Mapping};
 use crate::edskit::Edskit;
 use crate::zencan::Zencan;
-use criterion::Criterion;
 use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion};
 use std::hint::black_box;
 
-/// What the frames hold that are received, where only the lowest bit counts too.
+/// What received frames hold: eight bytes that differ.
 const DATA: [u8; 8] = [0x0F, 0xF0, 0x55, 0xAA, 0x01, 0x80, 0xC3, 0x3C];
 
 pub(crate) fn benches(criterion: &mut Criterion, edskit: &mut Edskit, zencan: &mut Zencan) {
@@ -30,7 +30,7 @@ pub(crate) fn benches(criterion: &mut Criterion, edskit: &mut Edskit, zencan: &m
 }
 
 /// A frame comes, and its values are in the dictionary.
-fn receive<D: Device>(group: &mut criterion::BenchmarkGroup<'_, WallTime>, device: &mut D, mapping: Mapping) {
+fn receive<D: Device>(group: &mut BenchmarkGroup<'_, WallTime>, device: &mut D, mapping: Mapping) {
     let take = |device: &mut D, data: &[u8; 8]| {
         device.receive(mapping.rpdo(), data);
         device.poll();
@@ -48,11 +48,7 @@ fn receive<D: Device>(group: &mut criterion::BenchmarkGroup<'_, WallTime>, devic
 }
 
 /// The device changes a value, and a frame goes.
-fn transmit<D: Device>(
-    group: &mut criterion::BenchmarkGroup<'_, WallTime>,
-    device: &mut D,
-    mapping: Mapping,
-) {
+fn transmit<D: Device>(group: &mut BenchmarkGroup<'_, WallTime>, device: &mut D, mapping: Mapping) {
     let send = |device: &mut D, value: u8| {
         device.change(mapping, value);
         device.poll();

@@ -5,6 +5,7 @@ use crate::device::{Device, LENGTH, bytes};
 use crate::edskit::Edskit;
 use crate::zencan::Zencan;
 use criterion::Criterion;
+use std::hint::black_box;
 
 /// A transfer that a node is asked for; the bytes are those that the client has.
 type Transfer<D> = fn(&mut D, &mut Vec<u8>);
@@ -28,11 +29,11 @@ pub(crate) fn benches(criterion: &mut Criterion, edskit: &mut Edskit, zencan: &m
 }
 
 fn read_number<D: Device>(device: &mut D, _: &mut Vec<u8>) {
-    std::hint::black_box(upload(device));
+    black_box(upload(device));
 }
 
 fn write_number<D: Device>(device: &mut D, _: &mut Vec<u8>) {
-    download(device, std::hint::black_box(0x0102_0304));
+    download(device, black_box(0x0102_0304));
 }
 
 /// What is timed gives the right answers.
