@@ -6,6 +6,7 @@ mod python;
 mod step;
 mod test;
 mod thumb;
+mod tutorial;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};

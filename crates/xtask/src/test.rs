@@ -1,7 +1,7 @@
 //! `cargo xtask test`: the one command that says whether everything holds.
 
 use crate::step::{self, Outcome, cargo};
-use crate::{conformance, is_ci, python, say, thumb};
+use crate::{conformance, is_ci, python, say, thumb, tutorial};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -31,6 +31,7 @@ const STEPS: &[Step] = &[
     ("size of a firmware", thumb::firmware),
     ("independent reading of the corpus", python::independent_reading),
     ("conformance of nodes", conformance::of_nodes),
+    ("tutorial of the gateway", tutorial::of_gateway),
 ];
 
 /// Runs every step, also behind one that failed, and ends with a summary; with words only the steps whose titles have

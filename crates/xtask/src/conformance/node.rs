@@ -5,31 +5,61 @@ use crate::step::{Outcome, cargo, command, run};
 use std::env;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 
 pub(super) const NODE_ID: &str = "5";
 
-/// A program that is a node. It takes `--node-id` and `--listen`, and prints where it listens.
+/// A program that is a node. It prints where it listens.
 #[derive(Clone, Copy)]
-pub(super) struct Program {
-    /// What its dictionary is.
-    pub(super) dictionary: &'static str,
-    binary: &'static str,
-    /// Whether it is told at its start which file it is to be, with the command `run`.
-    takes_file: bool,
+pub(super) enum Program {
+    /// `edskit run` with the file.
+    Loaded,
+    /// A device with a dictionary that is generated from the file.
+    Generated,
+    /// The gateway, with the parameters of [`GATEWAY`].
+    Gateway,
 }
 
-/// A node that is told at its start which file it is to be.
-pub(super) const LOADED: Program = Program { dictionary: "loaded", binary: "edskit", takes_file: true };
-/// A node whose dictionary is generated.
-pub(super) const GENERATED: Program =
-    Program { dictionary: "generated", binary: "edskit-tests-device", takes_file: false };
+/// The parameters of the gateway that is judged: node-ID 5, and PDOs of every kind.
+const GATEWAY: &str = "tests/fixtures/gateway/conformance.toml";
+
+impl Program {
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Self::Loaded => "loaded",
+            Self::Generated => "generated",
+            Self::Gateway => "live",
+        }
+    }
+
+    fn binary(self) -> &'static str {
+        match self {
+            Self::Loaded | Self::Gateway => "edskit",
+            Self::Generated => "edskit-tests-device",
+        }
+    }
+
+    fn command(self, eds: &Path) -> Command {
+        let mut start = command(binaries().join(self.binary()), &[]);
+        match self {
+            Self::Loaded => start.arg("run").arg(eds).args(["--node-id", NODE_ID]),
+            Self::Generated => start.args(["--node-id", NODE_ID]),
+            Self::Gateway => start.args(["run", "gateway", "--params"]).arg(root().join(GATEWAY)),
+        };
+        start
+    }
+}
+
+/// Where the programs are.
+pub(crate) fn binaries() -> PathBuf {
+    env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from).join("debug")
+}
 
 /// Builds the programs, the second one with the dictionary of this file.
 pub(super) fn build(eds: &Path) -> Result<(), String> {
     // With the whole workspace, so that no dependency has other features than in the tests and is built again.
     let mut build = cargo(&["build", "--quiet", "--workspace"]);
-    build.args([LOADED, GENERATED].iter().flat_map(|program| ["--bin", program.binary]));
+    build.args([Program::Loaded, Program::Generated].iter().flat_map(|program| ["--bin", program.binary()]));
     match run(build.env("EDSKIT_DEVICE_EDS", eds)) {
         Outcome::Passed => Ok(()),
         outcome => Err(format!("the nodes cannot be built ({outcome})")),
@@ -46,13 +76,9 @@ pub(super) struct Node {
 
 impl Node {
     pub(super) fn start(program: Program, eds: &Path) -> Result<Self, String> {
-        let name = program.binary;
-        let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
-        let mut start = command(target.join("debug").join(name), &[]);
-        if program.takes_file {
-            start.arg("run").arg(eds);
-        }
-        start.args(["--node-id", NODE_ID, "--listen", "127.0.0.1:0"]).stdout(Stdio::piped());
+        let name = program.binary();
+        let mut start = program.command(eds);
+        start.args(["--listen", "127.0.0.1:0"]).stdout(Stdio::piped());
         let process = start.spawn().map_err(|error| format!("{name}: {error}"))?;
         let mut node = Self { program, process, socketcand: String::new(), slcan: String::new() };
         let output = node.process.stdout.take().ok_or(format!("{name} has no output"))?;
