@@ -16,13 +16,16 @@ fn failures(bench: &mut Bench) -> (Vec<(u8, String)>, usize) {
     (failures.collect(), sent)
 }
 
+/// Settings of both units.
+type Settings = Vec<(Owner, u16, i32)>;
+
 /// TPDO 5 active, with this identifier.
-fn tpdo_5(can_id: i32) -> Vec<(Owner, u16, i32)> {
+fn tpdo_5(can_id: i32) -> Settings {
     both(&[(16404, can_id)], &[(16404, 2000), (16461, 100)])
 }
 
 /// Each configuration that 7.3 refuses, by its check, with what the device says.
-fn wrong() -> Vec<(u8, Vec<(Owner, u16, i32)>, &'static str)> {
+fn wrong() -> Vec<(u8, Settings, &'static str)> {
     let node_2 = |more: Vec<_>| [gateway(&[(427, 2)]), more].concat();
     let sensors = [(900, 9), (4900, 3)];
     std::vec![
