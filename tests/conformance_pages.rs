@@ -2,7 +2,7 @@
 
 use edskit_tests::conformance::{Device, Evidence, Id, Page, device, device_names, evidence};
 use edskit_tests::{read, root, shared};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 /// A device with all that its page is made of.
@@ -81,7 +81,9 @@ fn pages_and_tests_name_each_other() {
                 evidence.of(&id).map(|(file, test)| (id.to_string(), file.to_owned(), test.to_owned()));
             tests.collect::<Vec<_>>()
         };
-        assert_eq!(on_page, device.ids().flat_map(of).collect());
+        let named: BTreeSet<_> = device.ids().flat_map(of).collect();
+        let differences: Vec<_> = on_page.symmetric_difference(&named).collect();
+        assert!(differences.is_empty(), "{name}.md and the tests differ in {differences:#?}");
     }
 }
 
@@ -96,22 +98,41 @@ fn doubtful_statements_have_a_reading() {
     }
 }
 
-/// The IDs of a ledger.
-fn ledger(name: &str, prefix: &str) -> Option<BTreeSet<String>> {
+/// The statements of a ledger by their IDs.
+fn ledger(name: &str, prefix: &str) -> Option<BTreeMap<String, String>> {
     let path = shared("the ledger of a device")?.join(format!("ledger/{name}.md"));
     let text = String::from_utf8(read(&path)).expect("ledgers are UTF-8");
-    Some(rows(&text, prefix).into_iter().map(|(id, _)| id.to_owned()).collect())
+    Some(rows(&text, prefix).into_iter().map(|(id, cells)| (id.to_owned(), cells[0].to_owned())).collect())
 }
 
 #[test]
 fn the_statements_are_those_of_the_ledger() {
     for Made { name, device, .. } in made() {
         let Some(ledger) = ledger(&name, &device.prefix) else { return };
+        let ledger: BTreeSet<String> = ledger.into_keys().collect();
         let known: BTreeSet<String> = device.ids().map(|id| id.to_string()).collect();
-        assert_eq!(known, ledger, "the numbers of statements in {name}.toml");
+        let differences: Vec<&String> = known.symmetric_difference(&ledger).collect();
+        assert!(differences.is_empty(), "{name}.toml and the ledger differ in {differences:?}");
         let page = text(&format!("docs/conformance/{name}.md"));
-        for (id, _) in rows(&page, &device.prefix) {
-            assert!(ledger.contains(id), "{id} is no statement of the ledger");
-        }
+        let on_page: BTreeSet<String> =
+            rows(&page, &device.prefix).into_iter().map(|(id, _)| id.to_owned()).collect();
+        let differences: Vec<&String> = on_page.symmetric_difference(&ledger).collect();
+        assert!(differences.is_empty(), "{name}.md and the ledger differ in {differences:?}");
+    }
+}
+
+#[test]
+fn every_statement_has_a_test_or_a_reason() {
+    for Made { name, device, page, .. } in made() {
+        // What the statements say helps whoever has the ledger, and the test holds for everybody.
+        let ledger = if page.missing.is_empty() { None } else { ledger(&name, &device.prefix) };
+        let says = |id: &Id| ledger.as_ref().and_then(|ledger| ledger.get(&id.to_string()).cloned());
+        let line = |id: &Id| format!("{id}  {}\n", says(id).unwrap_or_default());
+        let missing: String = page.missing.iter().map(line).collect();
+        assert!(
+            missing.is_empty(),
+            "{name}: {} with neither test nor reason:\n{missing}",
+            page.missing.len()
+        );
     }
 }

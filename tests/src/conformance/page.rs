@@ -110,7 +110,8 @@ itself is not published. Code and tests name the IDs.
 - *Reading*: how a statement is read where the manual contradicts itself, has a slip or leaves something open (`NOTE`), or
   what was chosen where it says nothing (`GAP`).
 
-`cargo xtask docs` writes this page from the tests and from `{name}.toml`. A test says when it is stale.
+`cargo xtask docs` writes this page from the tests and from `{name}.toml`. A test says when it is stale,
+and when a statement has neither test nor reason.
 
 "
     )
