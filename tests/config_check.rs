@@ -27,6 +27,8 @@ fn findings(input: impl AsRef<[u8]>) -> (Vec<String>, Value) {
 
 #[test]
 fn every_fixture() {
+    // GW-CFG-31 to GW-CFG-34: what must be equal in both units (units.toml). GW-NOTE-08: times that are too long (data.toml).
+    // GW-NOTE-26: a monitoring time that is rounded down (manual.toml).
     let folder = edskit_tests::root().join("tests/fixtures/gateway");
     let mut exits = String::new();
     for path in edskit_tests::paths(&folder) {
@@ -39,7 +41,7 @@ fn every_fixture() {
     insta::assert_snapshot!("exits", exits);
 }
 
-/// GW-CFG-14, GW-CFG-15, GW-CFG-16: the manual's identifiers on the nodes 1, 2 and 127.
+/// GW-CFG-14 to GW-CFG-16, GW-NOTE-19: the manual's identifiers on the nodes 1, 2 and 127.
 #[test]
 fn the_example_of_the_manual_on_three_nodes() {
     let of = |name: &str| {

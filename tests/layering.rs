@@ -1,6 +1,7 @@
 //! The cuts between the crates. The tables are the rule and its documentation: what is not in them is not allowed.
 
 use cargo_metadata::{Dependency, DependencyKind, Metadata, MetadataCommand, Package};
+use edskit_tests::rust_sources;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -143,7 +144,7 @@ fn every_crate_takes_lints_licence_and_toolchain_from_the_workspace() {
 #[test]
 fn libraries_open_no_file_print_nothing_and_know_no_clock() {
     for package in libraries(&metadata()) {
-        for (path, text) in sources(&source_folder(package)) {
+        for (path, text) in rust_sources(&source_folder(package)) {
             if path.ends_with(BUILD_SCRIPT_FILE) || path.ends_with("edskit-codegen/src/compile/tests.rs") {
                 continue;
             }
@@ -160,7 +161,7 @@ fn libraries_open_no_file_print_nothing_and_know_no_clock() {
 #[test]
 fn crates_for_devices_need_neither_std_nor_an_allocator() {
     for package in device_crates(&metadata()) {
-        for (path, text) in sources(&source_folder(package)) {
+        for (path, text) in rust_sources(&source_folder(package)) {
             let is_root = path.ends_with("src/lib.rs");
             assert!(!is_root || text.contains("#![no_std]\n"), "{} lacks #![no_std]", path.display());
             assert!(!text.contains("extern crate alloc"), "{}: no allocation", path.display());
@@ -189,7 +190,7 @@ fn unsafe_code_stands_in_few_files_only() {
     let root = edskit_tests::root();
     let mut found = Vec::new();
     for folder in ["crates", "tests", "benches"] {
-        for (path, text) in sources(&root.join(folder)) {
+        for (path, text) in rust_sources(&root.join(folder)) {
             if text.lines().any(|line| has_word(line, "unsafe_code") && !line.contains("forbid")) {
                 found.push(path.strip_prefix(&root).expect("sources are in the repository").to_owned());
             }
@@ -229,20 +230,6 @@ fn device_crates(metadata: &Metadata) -> Vec<&Package> {
 
 fn source_folder(package: &Package) -> PathBuf {
     package.manifest_path.parent().expect("a manifest lies in a folder").join("src").into_std_path_buf()
-}
-
-/// The Rust files below a folder with their text, those of the fuzz targets' own workspace left out.
-fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
-    let mut found = Vec::new();
-    for path in edskit_tests::paths(folder) {
-        if path.is_dir() && !path.ends_with("tests/fuzz") {
-            found.extend(sources(&path));
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
-            let text = read(&path);
-            found.push((path, text));
-        }
-    }
-    found
 }
 
 fn read(path: &Path) -> String {

@@ -10,6 +10,7 @@ const FAULTY: &str = "fixtures/faulty.eds";
 
 #[test]
 fn the_published_gateway_file() {
+    // GW-EDS-11 to GW-EDS-13, GW-NOTE-17
     insta::assert_snapshot!("published_gateway", edskit(&["lint", PUBLISHED]).all());
     insta::assert_snapshot!(
         "published_gateway_all_rules",

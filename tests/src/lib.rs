@@ -2,6 +2,7 @@
 
 pub mod allocation;
 mod command;
+pub mod conformance;
 pub mod field_report;
 mod folder;
 pub mod hostile;
@@ -81,6 +82,23 @@ pub fn paths(folder: &Path) -> Vec<PathBuf> {
         entries.map(|entry| entry.expect("the folder can be read").path()).collect();
     paths.sort();
     paths
+}
+
+/// The Rust files below a folder with their text, those of the fuzz targets' own workspace left out.
+///
+/// # Panics
+/// Where a folder or a file cannot be read.
+pub fn rust_sources(folder: &Path) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    for path in paths(folder) {
+        if path.is_dir() && !path.ends_with("tests/fuzz") {
+            found.extend(rust_sources(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            let text = String::from_utf8(read(&path)).expect("Rust sources are UTF-8");
+            found.push((path, text));
+        }
+    }
+    found
 }
 
 /// The bytes of a file.

@@ -9,6 +9,9 @@ use std::process::{ExitCode, Stdio};
 const DOCUMENTS: &[(&str, &str)] =
     &[("docs/rules.md", "markdown"), ("docs/cross-reference.md", "cross-reference")];
 
+/// Programs of `edskit-tests` that write documents themselves, with what they write.
+const WRITERS: &[(&str, &str)] = &[("pictures", "docs/pictures"), ("conformance-pages", "docs/conformance")];
+
 /// The report on real files, which needs them.
 const FIELD_REPORT: (&str, &[&str]) =
     ("docs/field-report.md", &["run", "--quiet", "--package", "edskit-tests", "--bin", "field-report"]);
@@ -22,21 +25,20 @@ pub(crate) fn run() -> ExitCode {
         }
         say(format_args!("{path} is written"));
     }
-    let pictures = ["run", "--quiet", "--package", "edskit-tests", "--bin", "pictures"];
-    match cargo(&pictures).status() {
-        Ok(status) if status.success() => {
-            say("docs/pictures is written");
-            ExitCode::SUCCESS
+    for (program, folder) in WRITERS {
+        let outcome = match cargo(&["run", "--quiet", "--package", "edskit-tests", "--bin", program]).status()
+        {
+            Ok(status) if status.success() => Ok(()),
+            Ok(status) => Err(status.to_string()),
+            Err(error) => Err(error.to_string()),
+        };
+        if let Err(error) = outcome {
+            say(format_args!("{folder}: {error}"));
+            return ExitCode::FAILURE;
         }
-        Ok(status) => {
-            say(format_args!("docs/pictures: {status}"));
-            ExitCode::FAILURE
-        }
-        Err(error) => {
-            say(format_args!("docs/pictures: {error}"));
-            ExitCode::FAILURE
-        }
+        say(format_args!("{folder} is written"));
     }
+    ExitCode::SUCCESS
 }
 
 pub(crate) fn run_field_report() -> ExitCode {

@@ -24,7 +24,7 @@ fn cycle_times_of_tpdos() {
 /// 7.1.5, example.
 #[test]
 fn monitoring_times_of_rpdos() {
-    // GW-TIMING-11, GW-TIMING-09, GW-TIMING-10
+    // GW-TIMING-11, GW-TIMING-09, GW-TIMING-10, GW-NOTE-07
     let configuration = configuration(&governor(&[(16480, 0), (16481, 100), (16482, 200), (16483, 1000)]));
     let times = [1, 2, 3, 4].map(|rpdo| configuration.rpdo_monitoring(rpdo).map(|p| (p.cycles, p.micros())));
     assert_eq!(times, [None, Some((6, 93_750)), Some((12, 187_500)), Some((64, 1_000_000))]);
