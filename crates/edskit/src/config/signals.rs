@@ -24,7 +24,7 @@ pub(super) struct Declared {
 
 /// What the file describes, besides what the manual names.
 #[derive(Default, Debug)]
-pub(super) struct KnownSignals {
+pub(crate) struct KnownSignals {
     pub(super) declared: BTreeMap<u16, Declared>,
 }
 
@@ -35,7 +35,7 @@ impl KnownSignals {
     }
 
     /// Number and name, as far as known.
-    pub(super) fn title(&self, number: u16) -> String {
+    pub(crate) fn title(&self, number: u16) -> String {
         let named = || NAMED_SIGNALS.iter().find(|signal| signal.number == number).map(|signal| signal.name);
         let declared = self.declared.get(&number).and_then(|declared| declared.name.as_deref());
         match declared.or_else(named) {
