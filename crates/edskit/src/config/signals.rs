@@ -34,11 +34,16 @@ impl KnownSignals {
         self.declared.contains_key(&number) || NamedSignals.signal_type(number).is_some()
     }
 
-    /// Number and name, as far as known.
-    pub(crate) fn title(&self, number: u16) -> String {
+    /// The name, if one is known.
+    pub(crate) fn name(&self, number: u16) -> Option<&str> {
         let named = || NAMED_SIGNALS.iter().find(|signal| signal.number == number).map(|signal| signal.name);
         let declared = self.declared.get(&number).and_then(|declared| declared.name.as_deref());
-        match declared.or_else(named) {
+        declared.or_else(named)
+    }
+
+    /// Number and name, as far as known.
+    pub(super) fn title(&self, number: u16) -> String {
+        match self.name(number) {
             Some(name) => format!("{number} {name}"),
             None => number.to_string(),
         }

@@ -18,9 +18,9 @@ pub(super) fn run(
     record: Option<TraceFile>,
     streams: &mut Streams,
 ) -> io::Result<Exit> {
-    let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
     // The hub lives as long as the gateway.
     let (bus, hub) = connect(arguments, record).map_err(io::Error::other)?;
+    let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
     let mut session = Session::new(device, bus, None, steps);
     if arguments.log.is_some() || !streams.is_terminal {
         let log = Log::new(arguments.log.unwrap_or_default());

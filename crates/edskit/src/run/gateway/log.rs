@@ -37,9 +37,9 @@ pub(super) enum What {
     /// A time is longer than the longest (GW-NOTE-08).
     TimeCapped { parameter: u16, name: String, set_ms: u16, effective_ms: f64 },
     /// An error has come.
-    Error { number: u16, name: &'static str, meaning: &'static str },
+    Error { number: u16, name: Option<&'static str>, meaning: &'static str },
     /// An error has gone.
-    ErrorGone { number: u16, name: &'static str },
+    ErrorGone { number: u16, name: Option<&'static str> },
     /// The error memory cannot be written.
     NotStored,
     /// So many events came too fast to be told.
@@ -91,19 +91,19 @@ impl What {
     }
 
     fn gateway_error(error: GatewayError, is_present: bool) -> Self {
-        Self::error(error.number(), error.name(), error.meaning(), is_present)
+        Self::error(error.number(), Some(error.name()), error.meaning(), is_present)
     }
 
     fn can_open_error(error: CanOpenError, is_present: bool) -> Self {
-        Self::error(error.number(), error.name(), error.meaning(), is_present)
+        Self::error(error.number(), Some(error.name()), error.meaning(), is_present)
     }
 
     /// An error of the governor, which the manual of the gateway does not name.
     pub(super) fn governor_error(number: u16, is_present: bool) -> Self {
-        Self::error(number, "", "error of the engine or a sensor", is_present)
+        Self::error(number, None, "error of the engine or a sensor", is_present)
     }
 
-    fn error(number: u16, name: &'static str, meaning: &'static str, is_present: bool) -> Self {
+    fn error(number: u16, name: Option<&'static str>, meaning: &'static str, is_present: bool) -> Self {
         if is_present { Self::Error { number, name, meaning } } else { Self::ErrorGone { number, name } }
     }
 
@@ -140,8 +140,8 @@ impl What {
             Self::TimeCapped { parameter, name, set_ms, effective_ms } => {
                 format!("P{parameter} {name} = {set_ms} ms is too long and counts as {effective_ms} ms")
             }
-            Self::Error { number, name, meaning } => format!("error {}: {meaning}", titled(*number, name)),
-            Self::ErrorGone { number, name } => format!("error {} has gone", titled(*number, name)),
+            Self::Error { number, name, meaning } => format!("error {}: {meaning}", titled(*number, *name)),
+            Self::ErrorGone { number, name } => format!("error {} has gone", titled(*number, *name)),
             Self::NotStored => "the error memory cannot be written".to_owned(),
             Self::EventsLost { count: 1 } => "1 event came too fast to be told".to_owned(),
             Self::EventsLost { count } => format!("{count} events came too fast to be told"),
@@ -155,6 +155,6 @@ impl What {
 }
 
 /// `3074 ErrCanOpen`
-fn titled(number: u16, name: &str) -> String {
-    if name.is_empty() { number.to_string() } else { format!("{number} {name}") }
+fn titled(number: u16, name: Option<&str>) -> String {
+    name.map_or_else(|| number.to_string(), |name| format!("{number} {name}"))
 }

@@ -153,8 +153,11 @@ impl<B: Bus> Session<B> {
         while let Some(event) = self.station.device.take_event() {
             self.tell_event(event);
         }
-        let errors = self.station.device.all_errors() & ENGINE_ERRORS;
-        let changed = errors ^ std::mem::replace(&mut self.engine_errors, errors);
+        // A governor that does not run has no errors; that it is off has been told.
+        let is_running = self.station.device.is_running(Owner::Governor);
+        let errors = if is_running { self.station.device.all_errors() & ENGINE_ERRORS } else { 0 };
+        let before = std::mem::replace(&mut self.engine_errors, errors);
+        let changed = if is_running { errors ^ before } else { 0 };
         for nth in (0..70).filter(|nth| changed >> nth & 1 == 1) {
             self.tell(What::governor_error(3000 + nth, errors >> nth & 1 == 1));
         }

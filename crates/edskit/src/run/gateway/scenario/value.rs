@@ -193,6 +193,10 @@ fn engine_error(key: &str, value: &Value<'_>, action: fn(u16) -> Action) -> Resu
 fn clear_errors(key: &str, value: &Value<'_>) -> Result<Action, Problem> {
     match value.get_ref() {
         DeValue::Boolean(true) => Ok(Action::ClearErrors),
+        DeValue::Boolean(false) => {
+            let problem = Problem::at(OUT_OF_RANGE, place(value), format!("`{key}` cannot be `false`"));
+            Err(problem.help("write `true`, or leave it out"))
+        }
         _ => Err(wrong_type(key, "`true`", value).help("write `true`, or leave it out")),
     }
 }
@@ -237,9 +241,10 @@ fn engine(key: &str, value: &Value<'_>, problems: &mut Vec<Problem>) -> Vec<Acti
 /// A key that `whole` has no place for.
 pub(super) fn unknown_key(whole: &str, key: &str, place: Span, known: &[&str]) -> Problem {
     let problem = Problem::at(UNKNOWN_KEY, place, format!("{whole} has no `{key}`"));
-    let all = || known.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ");
-    match nearest(key, known.iter().copied()) {
-        Some(near) => problem.help(format!("did you mean `{near}`?")),
-        None => problem.help(format!("there are {}", all())),
+    let all: Vec<String> = known.iter().map(|key| format!("`{key}`")).collect();
+    match (nearest(key, known.iter().copied()), &all[..]) {
+        (Some(near), _) => problem.help(format!("did you mean `{near}`?")),
+        (None, [only]) => problem.help(format!("there is {only} alone")),
+        (None, all) => problem.help(format!("there are {}", all.join(", "))),
     }
 }

@@ -76,18 +76,30 @@ fn row(gateway: &LiveGateway, pdo: &Pdo, columns: u16) -> Row<'static> {
 
 /// The words of the last frame with their names; the names alone before the first one.
 fn content_of(gateway: &LiveGateway, pdo: &Pdo, traffic: &Traffic) -> String {
-    let (configuration, signals) = (gateway.effective_parameters(), &gateway.governor().signals);
     let mut bytes = traffic.data().chunks_exact(2);
     let word = |word: &Word| {
-        let name = content(configuration, signals, word.source);
+        let name = name_of(gateway, word.source);
         let bytes: Option<[u8; 2]> = bytes.next().and_then(|bytes| bytes.try_into().ok());
         let is_dummy = word.source == Source::Dummy;
         match bytes.map(u16::from_le_bytes).filter(|_| !is_dummy) {
-            Some(value) => format!("{name} = {}", value_of(word.source, value)),
+            Some(value) => format!("{name}={}", value_of(word.source, value)),
             None => name,
         }
     };
     pdo.words().iter().map(word).collect::<Vec<_>>().join(", ")
+}
+
+/// What a word is, by its name alone where it has one: columns are scarce.
+fn name_of(gateway: &LiveGateway, source: Source) -> String {
+    let (configuration, signals) = (gateway.effective_parameters(), &gateway.governor().signals);
+    match source {
+        Source::Signal { number, .. } => {
+            signals.name(number).map_or_else(|| number.to_string(), str::to_owned)
+        }
+        Source::Errors { first } => format!("errors {first}-{}", first + 15),
+        Source::SensorFlags => "sensor flags".to_owned(),
+        _ => content(configuration, signals, source),
+    }
 }
 
 /// Analogue values as numbers, bits in hexadecimal digits.
