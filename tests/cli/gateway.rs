@@ -18,7 +18,7 @@ fn whole_runs() {
     for (parameters, scenario, seconds) in [
         ("node-1", "bus-lost", "3.5"),
         ("node-2", "mended", "2.5"),
-        ("node-1", "faults", "10"),
+        ("node-1", "faults", "9"),
         ("data", "started", "1"),
     ] {
         let output = simulate(parameters, scenario, seconds, &[]);
@@ -29,7 +29,7 @@ fn whole_runs() {
 
 #[test]
 fn a_run_as_json() {
-    let output = simulate("node-1", "faults", "9.5", &["--log", "json"]);
+    let output = simulate("node-1", "faults", "9", &["--log", "json"]);
     assert_eq!(output.exit, Exit::Clean);
     for line in output.stdout.lines() {
         let line: serde_json::Value = serde_json::from_str(line).expect("each line is an object");
