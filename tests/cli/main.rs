@@ -4,6 +4,7 @@ mod bad_input;
 mod explain;
 mod fix;
 mod fmt;
+mod gateway;
 mod generate;
 mod help;
 mod lint;

@@ -12,7 +12,8 @@ pub(crate) fn run(arguments: &BusArguments, streams: &mut Streams) -> io::Result
     let log = Log::new(arguments.log);
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
     let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
-    let hub = start_hub(arguments.listen, &log, streams).map_err(io::Error::other)?;
+    let hub = start_hub(arguments.listen).map_err(io::Error::other)?;
+    log.hub(streams, &hub)?;
     // Without a trace nobody needs the frames.
     let mut listener = record.map(|record| Trace::new(hub.attach(), record));
     let mut told = Told::default();

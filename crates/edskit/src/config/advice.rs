@@ -2,7 +2,7 @@
 
 use super::problem::{self, Problem};
 use super::reading::{Reading, Setting};
-use super::view;
+use super::words;
 use edskit_devices::gateway::{
     Activity, Input, Owner, Parameter, Pdo, PdoTable, Period, Quantity, SignalType, Signals, Target,
 };
@@ -176,7 +176,7 @@ fn times(reading: &Reading, table: &PdoTable, problems: &mut Vec<Problem>) {
         let (Some(parameter), Some(period)) = (pdo.period_parameter(), pdo.period) else { continue };
         if period.is_capped {
             let Period { setting_ms, cycle, .. } = period;
-            let longest = view::milliseconds(period.micros());
+            let longest = words::milliseconds(period.micros());
             let message =
                 format!("{parameter} is {setting_ms} ms, longer than the longest time, {longest} ms");
             let place = reading.label(parameter, format!("counts as {longest} ms"));

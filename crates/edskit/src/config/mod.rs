@@ -5,21 +5,29 @@ mod collisions;
 mod human;
 mod json;
 mod key;
-mod problem;
+pub(crate) mod problem;
 mod reading;
 mod signals;
 mod syntax;
 mod value;
 mod view;
+mod words;
 
-use crate::cli::{ConfigArguments, ConfigCheckArguments, ConfigCommand, ConfigFormat};
+pub(crate) use problem::Problem;
+pub(crate) use reading::{entries, parameters_of, span};
+pub(crate) use signals::KnownSignals;
+pub(crate) use syntax::{table_of, text_of};
+pub(crate) use value::what_is;
+pub(crate) use words::{content, milliseconds, why};
+
+use crate::cli::{Color, ConfigArguments, ConfigCheckArguments, ConfigCommand, ConfigFormat};
 use crate::lint::human::{Style, excerpts};
 use crate::{Exit, Streams, files};
-use edskit_devices::gateway::PdoTable;
+use edskit_devices::gateway::{Configuration, PdoTable};
 use edskit_model::Document;
-use problem::Problem;
 use reading::Reading;
 use std::io::{self, Write};
+use std::path::Path;
 use view::View;
 
 pub(crate) fn run(arguments: &ConfigArguments, streams: &mut Streams) -> io::Result<Exit> {
@@ -36,12 +44,22 @@ struct Report {
     is_accepted: Option<bool>,
     /// `None` likewise.
     view: Option<View>,
+    /// `None` likewise.
+    parameters: Option<Parameters>,
+}
+
+/// What a parameter file gives to a device.
+#[derive(Debug, Default)]
+pub(crate) struct Parameters {
+    pub(crate) configuration: Configuration,
+    pub(crate) signals: KnownSignals,
 }
 
 impl Report {
     fn of(bytes: &[u8]) -> Self {
         let mut reading = Reading::of(bytes);
-        let (is_accepted, view) = match reading.is_complete() {
+        let is_complete = reading.is_complete();
+        let (is_accepted, view) = match is_complete {
             true => {
                 let table = PdoTable::new(&reading.configuration, &reading.signals);
                 let refused = collisions::refused(&reading, &table);
@@ -54,16 +72,51 @@ impl Report {
             // A value that is missing because it could not be read would make others look wrong.
             false => (None, None),
         };
-        let mut problems: Vec<Problem> = reading.problems.into_iter().map(Problem::printable).collect();
-        problems.sort_by_key(|problem| problem.span().start);
-        Self { problems, is_accepted, view }
+        let Reading { configuration, signals, problems, .. } = reading;
+        let parameters = is_complete.then_some(Parameters { configuration, signals });
+        Self { problems: in_order(problems), is_accepted, view, parameters }
+    }
+}
+
+/// Problems as they are printed, in the order of their places.
+fn in_order(problems: Vec<Problem>) -> Vec<Problem> {
+    let mut problems: Vec<Problem> = problems.into_iter().map(Problem::printable).collect();
+    problems.sort_by_key(|problem| problem.span().start);
+    problems
+}
+
+/// The parameters of a file, for a device that is to have them; `None` where it is not understood as a whole. What there
+/// is to say on it is printed to the error stream, as `edskit config check` prints it.
+pub(crate) fn read(path: &Path, streams: &mut Streams) -> io::Result<Option<Parameters>> {
+    let document = Document::from_vec(files::read(path, streams)?);
+    let Report { problems, parameters, .. } = Report::of(document.to_bytes());
+    print_problems(path, &document, problems, streams)?;
+    Ok(parameters)
+}
+
+/// Prints problems of a file to the error stream.
+pub(crate) fn print_problems(
+    path: &Path,
+    document: &Document,
+    problems: Vec<Problem>,
+    streams: &mut Streams,
+) -> io::Result<()> {
+    let style = Style { color: Color::Auto.is_wanted(streams.is_terminal), width: streams.width };
+    let excerpts = excerpts(&name_of(path), document, &in_order(problems), style);
+    streams.stderr.write_all(excerpts.as_bytes())
+}
+
+/// The file as it is called in excerpts.
+fn name_of(path: &Path) -> String {
+    match files::Input::File(path.to_path_buf()).name("") {
+        name if name == "-" => "stdin".to_owned(),
+        name => name,
     }
 }
 
 fn check(arguments: &ConfigCheckArguments, streams: &mut Streams) -> io::Result<Exit> {
     let document = Document::from_vec(files::read(&arguments.file, streams)?);
-    let name = files::Input::File(arguments.file.clone()).name("");
-    let name = if name == "-" { "stdin" } else { &name };
+    let name = &name_of(&arguments.file);
     let report = Report::of(document.to_bytes());
     match arguments.format {
         ConfigFormat::Human => {

@@ -1,4 +1,4 @@
-//! What the check reports.
+//! What is reported of parameter files and scenarios.
 
 use crate::lint::human::Notice;
 use crate::printable;
@@ -7,9 +7,9 @@ use edskit_model::Span;
 
 /// A kind of problem. Codes are never reused; docs/gateway-parameters.md has the list.
 #[derive(Debug)]
-pub(super) struct Kind {
-    pub(super) code: &'static str,
-    pub(super) name: &'static str,
+pub(crate) struct Kind {
+    pub(crate) code: &'static str,
+    pub(crate) name: &'static str,
     /// How bad it is, where the check does not say otherwise.
     severity: Severity,
 }
@@ -18,7 +18,7 @@ macro_rules! kinds {
     ($($(#[doc = $doc:literal])* $kind:ident = $code:literal $name:literal $severity:ident;)*) => {
         $(
             $(#[doc = $doc])*
-            pub(super) const $kind: &Kind =
+            pub(crate) const $kind: &Kind =
                 &Kind { code: $code, name: $name, severity: Severity::$severity };
         )*
 
@@ -77,36 +77,42 @@ kinds! {
     COMMUNICATION_OFF = "GWC023" "communication-off" Warning;
     /// An identifier is written in decimal digits.
     DECIMAL_IDENTIFIER = "GWC024" "decimal-identifier" Info;
+    /// A word of a scenario is none of those that can stand there.
+    UNKNOWN_WORD = "GWC025" "unknown-word" Error;
+    /// A step of a scenario does not say when it is.
+    NO_TIME = "GWC026" "no-time" Error;
+    /// A step of a scenario is after the end of the simulation.
+    TOO_LATE = "GWC027" "too-late" Warning;
 }
 
 /// One problem in a file.
 #[derive(Debug)]
-pub(super) struct Problem {
-    pub(super) kind: &'static Kind,
-    pub(super) severity: Severity,
+pub(crate) struct Problem {
+    pub(crate) kind: &'static Kind,
+    pub(crate) severity: Severity,
     /// One sentence without a full stop.
-    pub(super) message: String,
+    pub(crate) message: String,
     /// The first is the place itself.
-    pub(super) labels: Vec<Label>,
-    pub(super) help: Option<String>,
+    pub(crate) labels: Vec<Label>,
+    pub(crate) help: Option<String>,
 }
 
 impl Problem {
-    pub(super) fn new(kind: &'static Kind, place: Label, message: impl Into<String>) -> Self {
+    pub(crate) fn new(kind: &'static Kind, place: Label, message: impl Into<String>) -> Self {
         Self { kind, severity: kind.severity, message: message.into(), labels: vec![place], help: None }
     }
 
     /// A problem at a place that needs no words.
-    pub(super) fn at(kind: &'static Kind, span: Span, message: impl Into<String>) -> Self {
+    pub(crate) fn at(kind: &'static Kind, span: Span, message: impl Into<String>) -> Self {
         Self::new(kind, Label { span, text: String::new() }, message)
     }
 
-    pub(super) fn label(mut self, span: Span, text: impl Into<String>) -> Self {
+    pub(crate) fn label(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into() });
         self
     }
 
-    pub(super) fn labels(mut self, labels: impl IntoIterator<Item = Label>) -> Self {
+    pub(crate) fn labels(mut self, labels: impl IntoIterator<Item = Label>) -> Self {
         for label in labels {
             // Two remarks on one stretch would only draw it twice.
             match self.labels.iter_mut().find(|own| own.span == label.span) {
@@ -119,18 +125,18 @@ impl Problem {
         self
     }
 
-    pub(super) fn help(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn help(mut self, text: impl Into<String>) -> Self {
         self.help = Some(text.into());
         self
     }
 
-    pub(super) fn severity(mut self, severity: Severity) -> Self {
+    pub(crate) fn severity(mut self, severity: Severity) -> Self {
         self.severity = severity;
         self
     }
 
     /// The same with nothing that would steer a terminal; texts quote the file.
-    pub(super) fn printable(mut self) -> Self {
+    pub(crate) fn printable(mut self) -> Self {
         let texts = self.labels.iter_mut().map(|label| &mut label.text);
         for text in texts.chain([&mut self.message]).chain(&mut self.help) {
             *text = printable::line(text);
@@ -138,7 +144,7 @@ impl Problem {
         self
     }
 
-    pub(super) fn span(&self) -> Span {
+    pub(crate) fn span(&self) -> Span {
         self.labels[0].span
     }
 }

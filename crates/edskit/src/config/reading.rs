@@ -29,8 +29,8 @@ pub(super) struct Reading {
 
 /// One parameter that the file sets.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Setting {
-    pub(super) parameter: Parameter,
+pub(crate) struct Setting {
+    pub(crate) parameter: Parameter,
     /// The value in the file.
     pub(super) span: Span,
     /// How a whole number is written.
@@ -38,7 +38,7 @@ pub(super) struct Setting {
 }
 
 /// Entries of a table in the order of the file.
-type Entries<'t, 'i> = Vec<(&'t str, Span, &'t Spanned<DeValue<'i>>)>;
+pub(crate) type Entries<'t, 'i> = Vec<(&'t str, Span, &'t Spanned<DeValue<'i>>)>;
 
 impl Reading {
     pub(super) fn of(bytes: &[u8]) -> Self {
@@ -50,18 +50,9 @@ impl Reading {
             start: Span::at(0),
             problems: Vec::new(),
         };
-        match std::str::from_utf8(bytes) {
+        match syntax::text_of(bytes) {
             Ok(text) => reading.read(text),
-            Err(error) => {
-                let start = error.valid_up_to();
-                let end = (start + error.error_len().unwrap_or(1)).min(bytes.len());
-                let problem = Problem::at(
-                    problem::TOML_SYNTAX,
-                    span(start..end),
-                    "the file is not UTF-8, which TOML files must be",
-                );
-                reading.problems.push(problem.help("save it as UTF-8, or write these characters in ASCII"));
-            }
+            Err(problem) => reading.problems.push(problem),
         }
         reading
     }
@@ -98,11 +89,7 @@ impl Reading {
     }
 
     fn read(&mut self, text: &str) {
-        let (root, errors) = DeTable::parse_recoverable(text);
-        self.problems.extend(syntax::problems(&errors, text));
-        if self.problems.iter().any(|problem| problem.kind.code == problem::TOML_SYNTAX.code) {
-            return;
-        }
+        let Some(root) = syntax::table_of(text, &mut self.problems) else { return };
         let Some(device) = root.get_ref().get("device") else {
             let problem = Problem::at(problem::UNKNOWN_DEVICE, first_line(text), "the file names no device");
             self.problems.push(problem.help(format!("write `device = \"{DEVICE}\"` in the first line")));
@@ -147,42 +134,15 @@ impl Reading {
     }
 
     fn read_parameters(&mut self, owner: Owner, table: &DeTable<'_>) {
-        let mut keys: Vec<(Parameter, Span)> = Vec::new();
-        for (name, key_span, value) in entries(table) {
-            if self.problems.len() == MOST_FINDINGS {
-                break;
-            }
-            if owner == Owner::Governor && name == "signals" {
-                self.read_signals(value);
-                continue;
-            }
-            let value_span = span(value.span());
-            let parameter = match key::parameter(owner, name, key_span) {
-                Ok(parameter) => parameter,
-                Err(problem) => {
-                    self.problems.push(problem);
-                    continue;
-                }
-            };
-            if let Some((_, first)) = keys.iter().find(|(known, _)| *known == parameter) {
-                let message = format!("{parameter} is set twice");
-                let problem = Problem::at(problem::DUPLICATE_KEY, key_span, message);
-                let problem = problem.label(*first, "the first time");
-                self.problems.push(problem.help("keep one of the two"));
-                continue;
-            }
-            keys.push((parameter, key_span));
-            let read = value::read(parameter, value.get_ref(), value_span);
-            let set = |number| self.configuration.set(parameter, number);
-            match read.map(set) {
-                Ok(_) => {
-                    let radix = match value.get_ref() {
-                        DeValue::Integer(integer) => integer.radix(),
-                        _ => 10,
-                    };
-                    self.settings.push(Setting { parameter, span: value_span, radix });
-                }
-                Err(problem) => self.problems.push(problem),
+        let (signals, parameters): (Entries<'_, '_>, Entries<'_, '_>) =
+            entries(table).into_iter().partition(|(name, ..)| owner == Owner::Governor && *name == "signals");
+        for (_, _, value) in signals {
+            self.read_signals(value);
+        }
+        for (setting, value) in parameters_of(owner, parameters, &mut self.problems) {
+            // It has been looked at whether the parameter can have the value.
+            if self.configuration.set(setting.parameter, value).is_ok() {
+                self.settings.push(setting);
             }
         }
     }
@@ -241,6 +201,47 @@ impl Reading {
     }
 }
 
+/// The parameters that a table sets, and their values, in its order; what is wrong with the others goes to `problems`.
+pub(crate) fn parameters_of(
+    owner: Owner,
+    entries: Entries<'_, '_>,
+    problems: &mut Vec<Problem>,
+) -> Vec<(Setting, i32)> {
+    let mut keys: Vec<(Parameter, Span)> = Vec::new();
+    let mut settings = Vec::new();
+    for (name, key_span, value) in entries {
+        if problems.len() >= MOST_FINDINGS {
+            break;
+        }
+        let value_span = span(value.span());
+        let parameter = match key::parameter(owner, name, key_span) {
+            Ok(parameter) => parameter,
+            Err(problem) => {
+                problems.push(problem);
+                continue;
+            }
+        };
+        if let Some((_, first)) = keys.iter().find(|(known, _)| *known == parameter) {
+            let message = format!("{parameter} is set twice");
+            let problem = Problem::at(problem::DUPLICATE_KEY, key_span, message);
+            problems.push(problem.label(*first, "the first time").help("keep one of the two"));
+            continue;
+        }
+        keys.push((parameter, key_span));
+        match value::read(parameter, value.get_ref(), value_span) {
+            Ok(number) => {
+                let radix = match value.get_ref() {
+                    DeValue::Integer(integer) => integer.radix(),
+                    _ => 10,
+                };
+                settings.push((Setting { parameter, span: value_span, radix }, number));
+            }
+            Err(problem) => problems.push(problem),
+        }
+    }
+    settings
+}
+
 /// Name and type of `{ name = .., type = .. }`, with the place of the type.
 type NameAndType<'t> = (Option<String>, Option<(&'t str, Span)>);
 
@@ -273,7 +274,7 @@ fn unknown_key(name: &str, span: Span) -> Problem {
 }
 
 /// The entries in the order in which they stand in the file.
-fn entries<'t, 'i>(table: &'t DeTable<'i>) -> Entries<'t, 'i> {
+pub(crate) fn entries<'t, 'i>(table: &'t DeTable<'i>) -> Entries<'t, 'i> {
     let entry = |(key, value): (&'t Spanned<DeString<'i>>, &'t Spanned<DeValue<'i>>)| {
         (key.get_ref().as_ref(), span(key.span()), value)
     };
@@ -286,7 +287,7 @@ fn first_line(text: &str) -> Span {
     span(0..text.find(['\r', '\n']).unwrap_or(text.len()))
 }
 
-pub(super) fn span(range: Range<usize>) -> Span {
+pub(crate) fn span(range: Range<usize>) -> Span {
     // Spans are 32 bits wide; what lies beyond is shown at the end of what does not.
     let offset = |offset: usize| u32::try_from(offset).unwrap_or(u32::MAX - 1);
     Span::new(offset(range.start), offset(range.end))

@@ -24,7 +24,7 @@ pub(super) struct Declared {
 
 /// What the file describes, besides what the manual names.
 #[derive(Default, Debug)]
-pub(super) struct KnownSignals {
+pub(crate) struct KnownSignals {
     pub(super) declared: BTreeMap<u16, Declared>,
 }
 
@@ -34,11 +34,16 @@ impl KnownSignals {
         self.declared.contains_key(&number) || NamedSignals.signal_type(number).is_some()
     }
 
-    /// Number and name, as far as known.
-    pub(super) fn title(&self, number: u16) -> String {
+    /// The name, if one is known.
+    pub(crate) fn name(&self, number: u16) -> Option<&str> {
         let named = || NAMED_SIGNALS.iter().find(|signal| signal.number == number).map(|signal| signal.name);
         let declared = self.declared.get(&number).and_then(|declared| declared.name.as_deref());
-        match declared.or_else(named) {
+        declared.or_else(named)
+    }
+
+    /// Number and name, as far as known.
+    pub(super) fn title(&self, number: u16) -> String {
+        match self.name(number) {
             Some(name) => format!("{number} {name}"),
             None => number.to_string(),
         }

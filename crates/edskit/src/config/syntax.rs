@@ -1,15 +1,36 @@
-//! What is wrong with a file that is no TOML.
+//! From bytes to TOML, and what is wrong with a file that is none.
 
 use super::problem::{self, Problem};
 use super::reading::span;
 use edskit_model::Span;
-use toml::de::Error;
+use toml::Spanned;
+use toml::de::{DeTable, Error};
 
 /// The most errors that are shown; who gives the wrong file need not see every line of it.
 const MOST: usize = 20;
 
+/// The text of a file.
+pub(crate) fn text_of(bytes: &[u8]) -> Result<&str, Problem> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let start = error.valid_up_to();
+        let end = (start + error.error_len().unwrap_or(1)).min(bytes.len());
+        let message = "the file is not UTF-8, which TOML files must be";
+        Problem::at(problem::TOML_SYNTAX, span(start..end), message)
+            .help("save it as UTF-8, or write these characters in ASCII")
+    })
+}
+
+/// The table that a text is; `None` where it is no TOML. What is wrong with it goes to `problems`.
+pub(crate) fn table_of<'t>(text: &'t str, problems: &mut Vec<Problem>) -> Option<Spanned<DeTable<'t>>> {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let found = self::problems(&errors, text);
+    let is_toml = found.iter().all(|problem| problem.kind.code != problem::TOML_SYNTAX.code);
+    problems.extend(found);
+    is_toml.then_some(root)
+}
+
 /// The errors of the parser, one for each line.
-pub(super) fn problems(errors: &[Error], text: &str) -> Vec<Problem> {
+fn problems(errors: &[Error], text: &str) -> Vec<Problem> {
     let mut problems: Vec<Problem> = Vec::new();
     let mut last: Option<u32> = None;
     for error in errors {
@@ -21,7 +42,7 @@ pub(super) fn problems(errors: &[Error], text: &str) -> Vec<Problem> {
         last = Some(place.start);
         if problems.len() == MOST {
             if let Some(last) = problems.pop() {
-                problems.push(last.help("this is not the last error; is this a parameter file?"));
+                problems.push(last.help("this is not the last error; is this the right file?"));
             }
             break;
         }

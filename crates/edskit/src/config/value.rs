@@ -51,15 +51,21 @@ fn allowed(parameter: Parameter) -> String {
     }
 }
 
-fn wrong_type(parameter: Parameter, value: &DeValue<'_>, span: Span) -> Problem {
-    let what = match value {
+/// Words for the type of a value.
+pub(crate) fn what_is(value: &DeValue<'_>) -> &'static str {
+    match value {
         DeValue::String(_) => "a text",
-        DeValue::Integer(_) | DeValue::Float(_) => "a number with a decimal point",
+        DeValue::Integer(_) => "a whole number",
+        DeValue::Float(_) => "a number with a decimal point",
         DeValue::Boolean(_) => "true or false",
         DeValue::Datetime(_) => "a date or time",
         DeValue::Array(_) => "a list",
         DeValue::Table(_) => "a table",
-    };
+    }
+}
+
+fn wrong_type(parameter: Parameter, value: &DeValue<'_>, span: Span) -> Problem {
+    let what = what_is(value);
     let wanted =
         if parameter.quantity() == Quantity::Seconds { "a number of seconds" } else { "a whole number" };
     let problem =

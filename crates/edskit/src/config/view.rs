@@ -1,7 +1,8 @@
 //! The PDOs of a configuration as they are printed.
 
 use super::reading::Reading;
-use edskit_devices::gateway::{Activity, Parameter, Pdo, PdoTable, Period, Source, Word};
+use super::words;
+use edskit_devices::gateway::{Pdo, PdoTable, Period, Word};
 use serde::Serialize;
 
 /// What follows from a configuration.
@@ -84,74 +85,19 @@ impl View {
     }
 }
 
-/// Milliseconds with as many digits as they need.
-pub(super) fn milliseconds(micros: u32) -> String {
-    (f64::from(micros) / 1000.0).to_string()
-}
-
 fn pdo_view(reading: &Reading, pdo: &Pdo) -> PdoView {
     let content = |word: &Word| ContentView {
-        text: content(reading, word.source),
+        text: words::content(&reading.configuration, &reading.signals, word.source),
         index: word.object.index().0,
         sub_index: word.object.sub_index().0,
     };
     PdoView {
         name: pdo.party().to_string(),
         active: pdo.activity.is_active(),
-        why: why(reading, pdo),
+        why: words::why(&reading.configuration, pdo),
         can_id: pdo.can_id.raw() as u16,
         bytes: pdo.bytes(),
         time: pdo.period.map(TimeView::from),
         content: pdo.words().iter().map(content).collect(),
-    }
-}
-
-fn content(reading: &Reading, source: Source) -> String {
-    match source {
-        Source::Dummy => "-".to_owned(),
-        Source::Errors { first } => format!("errors {first} to {}", first + 15),
-        Source::EngineStatus => "engine status".to_owned(),
-        Source::Signal { number, .. } => reading.signals.title(number),
-        Source::SwitchFunctions => "switch functions".to_owned(),
-        Source::SensorFlags => "error flags of sensors".to_owned(),
-        Source::Sensor { channel } => {
-            let sensors = reading.configuration.sensors();
-            let own = sensors.filter(|input| input.target.channel() == Some(channel));
-            let names: Vec<String> = own.map(|input| input.assignment.to_string()).collect();
-            names.join(" and ")
-        }
-    }
-}
-
-fn why(reading: &Reading, pdo: &Pdo) -> String {
-    let count = |count: usize, what: &str| match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
-    };
-    let configuration = &reading.configuration;
-    let functions = || configuration.switch_functions().filter(|input| input.target.is_assigned()).count();
-    let sensors = || configuration.sensors().filter(|input| input.target.is_assigned()).count();
-    let selecting = || match pdo.number {
-        3 => Parameter::SEND_STATUS,
-        _ => Parameter::SEND_ERRORS,
-    };
-    match pdo.activity {
-        Activity::Selected => format!("{} is 1", selecting()),
-        Activity::NotSelected => format!("{} is 0", selecting()),
-        Activity::DataAndCycle => "data and a cycle time".to_owned(),
-        Activity::NoCycle => "no cycle time".to_owned(),
-        Activity::NoData => "no data".to_owned(),
-        Activity::NeitherDataNorCycle => "no data, no cycle time".to_owned(),
-        Activity::SwitchFunctions => count(functions(), "switch function"),
-        Activity::SensorFlags => format!("error flags of {}", count(sensors(), "sensor")),
-        Activity::SwitchFunctionsAndSensorFlags => {
-            format!("{}, {}", count(functions(), "switch function"), count(sensors(), "sensor"))
-        }
-        Activity::NoInputs => "no switch function, no sensor".to_owned(),
-        Activity::Sensors => {
-            let words = pdo.words().iter().filter(|word| matches!(word.source, Source::Sensor { .. }));
-            count(words.count(), "sensor")
-        }
-        Activity::NoSensors => "no sensor".to_owned(),
     }
 }

@@ -1,20 +1,17 @@
 //! Starting a hub.
 
-use super::Log;
-use crate::Streams;
 use edskit_host::{Hub, HubOptions};
 use std::net::SocketAddr;
 
-/// Starts a hub and says where it listens, on the first lines.
-pub(crate) fn start_hub(listen: Option<SocketAddr>, log: &Log, streams: &mut Streams) -> Result<Hub, String> {
-    let hub = Hub::start(&options(listen)).map_err(|error| error.to_string())?;
+/// Starts a hub.
+pub(crate) fn start_hub(listen: Option<SocketAddr>) -> Result<Hub, String> {
+    Hub::start(&options(listen)).map_err(|error| error.to_string())
+}
+
+/// Where a hub listens, by protocol.
+pub(crate) fn addresses(hub: &Hub) -> impl Iterator<Item = (&'static str, SocketAddr)> {
     let addresses = [("socketcand", hub.socketcand_address()), ("slcan", hub.slcan_address())];
-    for (protocol, address) in addresses {
-        if let Some(address) = address {
-            log.listening(streams, protocol, address).map_err(|error| error.to_string())?;
-        }
-    }
-    Ok(hub)
+    addresses.into_iter().filter_map(|(protocol, address)| Some((protocol, address?)))
 }
 
 /// The hub's ports: the given one for socketcand and the next one for SLCAN; port 0 takes free ones.

@@ -1,8 +1,9 @@
 //! What a command on a bus tells: lines for people, or JSON for machines.
 
+use super::addresses;
 use crate::Streams;
 use crate::cli::LogFormat;
-use edskit_host::Event;
+use edskit_host::{Event, Hub};
 use serde::Serialize;
 use std::io;
 use std::net::SocketAddr;
@@ -22,13 +23,13 @@ impl Log {
         Self(format)
     }
 
-    pub(crate) fn listening(
-        &self,
-        streams: &mut Streams,
-        protocol: &str,
-        address: SocketAddr,
-    ) -> io::Result<()> {
-        self.line(streams, &Line::Listening { protocol, address }, || format!("{protocol} {address}"))
+    /// Where a hub listens, on the first lines.
+    pub(crate) fn hub(&self, streams: &mut Streams, hub: &Hub) -> io::Result<()> {
+        for (protocol, address) in addresses(hub) {
+            let line = Line::Listening { protocol, address };
+            self.line(streams, &line, || format!("{protocol} {address}"))?;
+        }
+        Ok(())
     }
 
     pub(crate) fn bus(&self, streams: &mut Streams, event: &Event) -> io::Result<()> {

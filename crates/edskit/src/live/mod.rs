@@ -6,7 +6,7 @@ mod log;
 mod stop;
 mod trace;
 
-pub(crate) use hub::start_hub;
+pub(crate) use hub::{addresses, start_hub};
 pub(crate) use known_device::{KnownDevice, full_name, object_name};
 pub(crate) use log::Log;
 pub(crate) use stop::Stop;

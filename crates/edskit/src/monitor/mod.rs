@@ -21,7 +21,8 @@ pub(crate) fn run(arguments: &MonitorArguments, streams: &mut Streams) -> io::Re
     let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
     // A hub lives as long as its monitor.
     let (bus, _hub): (Box<dyn Bus + Send>, _) = if arguments.bus == Address::Hub {
-        let hub = start_hub(None, &log, streams).map_err(io::Error::other)?;
+        let hub = start_hub(None).map_err(io::Error::other)?;
+        log.hub(streams, &hub)?;
         (Box::new(hub.attach()), Some(hub))
     } else {
         (open_or_hint(&arguments.bus).map_err(io::Error::other)?, None)

@@ -1,6 +1,7 @@
 //! The commands on a live bus, each in a process of its own: `edskit run` and `bus` on one side, `sdo`, `nmt` and
 //! `monitor` on the other.
 
+mod gateway;
 mod process;
 
 use process::{Output, Process, edskit};

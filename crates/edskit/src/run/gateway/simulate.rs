@@ -1,0 +1,41 @@
+//! The gateway in virtual time: the same input gives the same lines and frames.
+
+use super::scenario::Step;
+use super::session::{LiveGateway, Session};
+use crate::live::{Log, TraceFile};
+use crate::{Exit, Streams};
+use edskit_host::{Bus, Trace, VirtualBus};
+use edskit_runtime::Microseconds;
+use edskit_types::Bitrate;
+use std::io;
+
+/// Runs the gateway for some time on a bus with the bit rate of its parameters, 125 kbit/s with manual bit timing.
+pub(super) fn run(
+    device: LiveGateway,
+    steps: Vec<Step>,
+    duration: Microseconds,
+    record: Option<TraceFile>,
+    log: &Log,
+    streams: &mut Streams,
+) -> io::Result<Exit> {
+    let bus = VirtualBus::new(device.bit_rate().unwrap_or(Bitrate::Kbit125));
+    let mut recorder = record.map(|record| Trace::new(bus.attach(), record));
+    let mut session = Session::new(device, bus.attach(), Some(bus.attach()), steps);
+    let end = session.instant(duration);
+    loop {
+        let next = session.turn().map_err(io::Error::other)?;
+        if let Some(recorder) = &mut recorder {
+            while recorder.receive().map_err(io::Error::other)?.is_some() {}
+            while let Some(event) = recorder.event() {
+                log.bus(streams, &event)?;
+            }
+        }
+        for line in session.take_lines() {
+            log.line(streams, &line, || line.text())?;
+        }
+        if bus.now() >= end {
+            return Ok(Exit::Clean);
+        }
+        session.station.bus.wait(next.min(end)).map_err(io::Error::other)?;
+    }
+}

@@ -1,0 +1,26 @@
+//! The values of the engine.
+
+use super::titled;
+use crate::run::gateway::session::LiveGateway;
+use edskit_devices::gateway::{Governor, NAMED_SIGNALS, Signal, Signals};
+use ratatui::Frame;
+use ratatui::layout::Rect;
+use ratatui::widgets::{Paragraph, Wrap};
+
+/// The title and two lines of values.
+pub(super) const ROWS: u16 = 3;
+
+pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, gateway: &LiveGateway) {
+    let governor = gateway.governor();
+    let value = |signal: &Signal| {
+        let value = governor.value(signal.number);
+        let is_signed = governor.signal_type(signal.number).is_some_and(|kind| kind.is_signed());
+        let number = if is_signed { i32::from(value as i16) } else { i32::from(value) };
+        // Hard blanks keep name and value on one line.
+        format!("{}\u{A0}{number}", signal.name)
+    };
+    let values: Vec<String> = NAMED_SIGNALS.iter().map(value).collect();
+    let status = format!("status\u{A0}{:02X}h", governor.engine_status());
+    let text = Paragraph::new(format!("{}  {status}", values.join("  "))).wrap(Wrap { trim: true });
+    frame.render_widget(text.block(titled("engine")), area);
+}
