@@ -62,7 +62,10 @@ fn steps_of_root(root: &DeTable<'_>, problems: &mut Vec<Problem>) -> Vec<Step> {
 }
 
 fn no_step(value: &Value<'_>) -> Problem {
-    let message = format!("a step is a table, and this is {}", what_is(value.get_ref()));
+    let message = match value.get_ref() {
+        DeValue::Table(_) => "steps are a list of tables, and this is a single one".to_owned(),
+        other => format!("a step is a table, and this is {}", what_is(other)),
+    };
     let problem = Problem::at(WRONG_TYPE, span(value.span()), message);
     problem.help("write `[[step]]` for each, and its keys below it")
 }
