@@ -12,7 +12,7 @@ fn simulate(parameters: &str, scenario: &str, seconds: &str, rest: &[&str]) -> e
     edskit(&[&arguments, rest].concat())
 }
 
-// GW-NMT-05, GW-APP-19, GW-APP-14, GW-APP-27, GW-APP-17, GW-CFG-30, GW-NOTE-08
+// GW-CFG-30, GW-APP-17, GW-APP-19, GW-APP-23, GW-APP-27, GW-APP-28, GW-APP-29, GW-APP-34, GW-NOTE-08
 #[test]
 fn whole_runs() {
     for (parameters, scenario, seconds) in [
@@ -58,6 +58,45 @@ fn the_same_run_gives_the_same_lines_and_frames() {
         frames.lines().filter(|line| line.starts_with("(0000000001.") || line.contains("(0000000002."));
     let tries: Vec<&str> = tries.filter(|line| line.contains(" 701#")).collect();
     assert_eq!(tries, ["(0000000001.500448) can0 701#7F", "(0000000002.000448) can0 701#7F"]);
+}
+
+/// The faults of the page with the errors that stand beside them.
+fn faults() -> Vec<(String, Vec<String>)> {
+    let page = String::from_utf8(edskit_tests::read(&edskit_tests::root().join("docs/gateway.md"))).unwrap();
+    let rows = page.lines().skip_while(|line| *line != "## Faults").take_while(|line| *line != "## The log");
+    let cells = rows.filter_map(|row| row.strip_prefix("| `")?.split_once("` | "));
+    cells
+        .map(|(name, rest)| {
+            let errors = rest.split_once(" |").expect("a row has three cells").0;
+            let numbers = errors.split(|character: char| !character.is_ascii_digit());
+            (name.to_owned(), numbers.filter(|number| !number.is_empty()).map(str::to_owned).collect())
+        })
+        .collect()
+}
+
+// GW-APP-21, GW-APP-22, GW-APP-25, GW-APP-26, GW-APP-31
+#[test]
+fn each_fault_causes_the_errors_of_the_page() {
+    let mut all = String::new();
+    for (fault, errors) in faults() {
+        let scenario = format!(
+            "step = [{{ at = 0.5, nmt = 'start' }}, {{ at = 1, inject = '{fault}' }}, {{ at = 1.1, command = 'init' }}]"
+        );
+        let arguments = ["run", "gateway", "--scenario", "-", "--simulate", "2"];
+        let output = edskit_with_input(&arguments, scenario.as_bytes());
+        assert_eq!(output.exit, Exit::Clean, "{}", output.stderr);
+        assert!(!errors.is_empty(), "{fault}");
+        for error in errors {
+            assert!(
+                output.stdout.contains(&format!("  error {error} ")),
+                "{fault}: {error}: {}",
+                output.stdout
+            );
+        }
+        let since = output.stdout.find("    1.000000").expect("the fault comes after a second");
+        all += &format!("=== {fault}\n{}", &output.stdout[since..]);
+    }
+    insta::assert_snapshot!(all);
 }
 
 #[test]

@@ -3,18 +3,15 @@
 mod live;
 
 pub(crate) use live::{
-    BusArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, SdoArguments, SdoCommand,
-    SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
+    BusArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, RunArguments, SdoArguments,
+    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
 };
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
-use edskit_host::Address;
 use edskit_lint::Severity;
-use edskit_runtime::Microseconds;
 use edskit_types::NodeId;
-use std::net::SocketAddr;
 use std::path::PathBuf;
 
 /// Lint, format, read and run CANopen EDS and DCF files (CiA 306), and talk to devices on a bus (CiA 301).
@@ -291,37 +288,6 @@ pub(crate) struct GenerateArguments {
     pub(crate) runtime: String,
 }
 
-#[derive(Args, Debug)]
-pub(crate) struct RunArguments {
-    /// An EDS or DCF; or `gateway`, the Heinzmann CANopen gateway, which is built in (a file of that name is `./gateway`)
-    #[arg(value_hint = ValueHint::FilePath)]
-    pub(crate) file: PathBuf,
-    /// The node-ID; that of a DCF if it has one, else 1. That of the gateway is its parameter P427
-    #[arg(long, value_parser = parse_node_id)]
-    pub(crate) node_id: Option<NodeId>,
-    /// The bus: `hub` starts one in this process, `socketcand:HOST:PORT`, `slcan:HOST:PORT` and `socketcan:can0` join one
-    #[arg(long, value_name = "ADDRESS", default_value = "hub")]
-    pub(crate) bus: Address,
-    /// Where the hub listens for socketcand, and on the next port for SLCAN; port 0 takes free ones
-    #[arg(long, value_name = "ADDR:PORT")]
-    pub(crate) listen: Option<SocketAddr>,
-    /// Record every frame in this file: .log for the format of candump, .pcap for that of Wireshark
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(crate) trace: Option<PathBuf>,
-    /// How events are printed [default: text; of the gateway on a terminal a view instead]
-    #[arg(long, value_enum)]
-    pub(crate) log: Option<LogFormat>,
-    /// The gateway's parameters, in a file as `edskit config check` takes it; without it each has its default
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(crate) params: Option<PathBuf>,
-    /// What happens to the gateway, and when (docs/gateway.md)
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub(crate) scenario: Option<PathBuf>,
-    /// Run the gateway for so many seconds of virtual time, on a bus of its own and without waiting
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["bus", "listen"])]
-    pub(crate) simulate: Option<Microseconds>,
-}
-
 #[derive(ValueEnum, Clone, Copy, Default, PartialEq, Eq, Debug)]
 pub(crate) enum LogFormat {
     /// Lines of text
@@ -360,15 +326,6 @@ fn parse_node_id(text: &str) -> Result<NodeId, String> {
     let number = edskit_model::Number::parse(text.as_bytes()).map_err(|error| error.to_string())?;
     let node_id = number.to::<u8>().and_then(|value| NodeId::new(value).ok());
     node_id.ok_or_else(|| "a node-ID is 1..127".to_owned())
-}
-
-/// The longest time that can be simulated, in s: eleven days.
-const MOST_SECONDS: f64 = 1e6;
-
-fn parse_seconds(text: &str) -> Result<Microseconds, String> {
-    let seconds = text.parse().ok().filter(|seconds| (1e-6..=MOST_SECONDS).contains(seconds));
-    let seconds: f64 = seconds.ok_or("seconds are expected, up to 1000000")?;
-    Ok(Microseconds((seconds * 1e6).round() as u64))
 }
 
 fn parse_file_stem(text: &str) -> Result<String, String> {

@@ -16,6 +16,37 @@ const HUB: &str = "socketcand:127.0.0.1:29536/can0";
 const HUB_WITH_REMOTE_FRAMES: &str = "slcan:127.0.0.1:29537";
 
 #[derive(Args, Debug)]
+pub(crate) struct RunArguments {
+    /// An EDS or DCF; or `gateway`, the Heinzmann CANopen gateway, which is built in (a file of that name is `./gateway`)
+    #[arg(value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// The node-ID; that of a DCF if it has one, else 1. That of the gateway is its parameter P427
+    #[arg(long, value_parser = parse_node_id)]
+    pub(crate) node_id: Option<NodeId>,
+    /// The bus: `hub` starts one in this process, `socketcand:HOST:PORT`, `slcan:HOST:PORT` and `socketcan:can0` join one
+    #[arg(long, value_name = "ADDRESS", default_value = "hub")]
+    pub(crate) bus: Address,
+    /// Where the hub listens for socketcand, and on the next port for SLCAN; port 0 takes free ones
+    #[arg(long, value_name = "ADDR:PORT")]
+    pub(crate) listen: Option<SocketAddr>,
+    /// Record every frame in this file: .log for the format of candump, .pcap for that of Wireshark
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) trace: Option<PathBuf>,
+    /// How events are printed [default: text; of the gateway on a terminal a view instead]
+    #[arg(long, value_enum)]
+    pub(crate) log: Option<LogFormat>,
+    /// The gateway's parameters, in a file as `edskit config check` takes it; without it each has its default
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) params: Option<PathBuf>,
+    /// What happens to the gateway, and when (docs/gateway.md)
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) scenario: Option<PathBuf>,
+    /// Run the gateway for so many seconds of virtual time, on a bus of its own and without waiting
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["bus", "listen"])]
+    pub(crate) simulate: Option<Microseconds>,
+}
+
+#[derive(Args, Debug)]
 pub(crate) struct BusArguments {
     /// Where to listen for socketcand, and on the next port for SLCAN; port 0 takes free ones [default: 127.0.0.1:29536]
     #[arg(long, value_name = "ADDR:PORT")]
@@ -190,6 +221,15 @@ pub(crate) enum ReadFormat {
     Text,
     /// JSON
     Json,
+}
+
+/// The longest time that can be simulated, in s: eleven days.
+const MOST_SECONDS: f64 = 1e6;
+
+fn parse_seconds(text: &str) -> Result<Microseconds, String> {
+    let seconds = text.parse().ok().filter(|seconds| (1e-6..=MOST_SECONDS).contains(seconds));
+    let seconds: f64 = seconds.ok_or("seconds are expected, up to 1000000")?;
+    Ok(Microseconds((seconds * 1e6).round() as u64))
 }
 
 fn parse_nmt_target(text: &str) -> Result<NmtTarget, String> {

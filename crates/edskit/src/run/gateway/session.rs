@@ -135,13 +135,15 @@ impl<B: Bus> Session<B> {
         match &mut self.master {
             Some(master) => master.send(frame),
             None => {
+                self.station.bus.send(frame)?;
                 self.station.device.receive(now, frame);
-                self.station.bus.send(frame)
+                Ok(())
             }
         }
     }
 
-    fn tell(&mut self, what: What) {
+    /// Adds a line at the present time.
+    pub(super) fn tell(&mut self, what: What) {
         self.lines.push(Line::new(self.time(), what));
     }
 

@@ -1,5 +1,6 @@
 //! The gateway in virtual time: the same input gives the same lines and frames.
 
+use super::log::What;
 use super::scenario::Step;
 use super::session::{LiveGateway, Session};
 use crate::live::{Log, TraceFile};
@@ -27,7 +28,7 @@ pub(super) fn run(
         if let Some(recorder) = &mut recorder {
             while recorder.receive().map_err(io::Error::other)?.is_some() {}
             while let Some(event) = recorder.event() {
-                log.bus(streams, &event)?;
+                session.tell(What::Bus { message: event.to_string() });
             }
         }
         for line in session.take_lines() {
