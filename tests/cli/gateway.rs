@@ -62,7 +62,8 @@ fn the_same_run_gives_the_same_lines_and_frames() {
 
 /// The faults of the page with the errors that stand beside them.
 fn faults() -> Vec<(String, Vec<String>)> {
-    let page = String::from_utf8(edskit_tests::read(&edskit_tests::root().join("docs/gateway.md"))).unwrap();
+    let page = edskit_tests::read(&edskit_tests::root().join("docs/gateway.md"));
+    let page = String::from_utf8(page).expect("the page is UTF-8");
     let rows = page.lines().skip_while(|line| *line != "## Faults").take_while(|line| *line != "## The log");
     let cells = rows.filter_map(|row| row.strip_prefix("| `")?.split_once("` | "));
     cells
