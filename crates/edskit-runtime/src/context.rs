@@ -113,11 +113,12 @@ impl Context<'_> {
             return Instant::NEVER;
         }
         let has_room = self.core.queue.room() > 0;
+        let is_mute = self.core.state == NmtState::Stopped || !has_room;
         let services = [
             self.core.producer.deadline(),
             self.core.guarding.deadline(),
             self.core.sync.deadline(),
-            if self.core.state == NmtState::Stopped { Instant::NEVER } else { self.core.emcy.deadline() },
+            if is_mute { Instant::NEVER } else { self.core.emcy.deadline() },
         ];
         let consumers = self.consumers.iter().map(HeartbeatConsumer::deadline);
         let servers = self.servers.iter().map(|server| server.deadline(has_room));

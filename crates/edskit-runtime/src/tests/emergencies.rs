@@ -74,3 +74,19 @@ fn emergencies_wait_while_the_node_is_stopped() {
     assert!(bench.poll().is_empty() && bench.pass(1000).is_empty());
     assert_eq!(bench.nmt(1).len(), 1);
 }
+
+#[test]
+fn an_emergency_behind_a_full_queue_does_not_keep_the_main_loop_busy() {
+    let mut bench = Bench::new(device().build());
+    // Answers that nobody takes fill the queue.
+    for _ in 0..16 {
+        let request = frame(0x605, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]);
+        bench.node.receive(bench.now, &request, &mut *bench.app);
+    }
+    raise(&mut bench, HOT, 0);
+    bench.node.poll(bench.now, &mut *bench.app);
+    assert!(bench.node.next_deadline(bench.now) > bench.now);
+    assert_eq!(bench.sent().len(), 16);
+    assert_eq!(bench.node.next_deadline(bench.now), bench.now);
+    assert_eq!(bench.poll().len(), 1);
+}
