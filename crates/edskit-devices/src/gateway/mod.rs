@@ -45,7 +45,7 @@
 //! * The initialisation: the governor sends all its telegrams in one of its main cycles and the command to go to
 //!   pre-operational in the next; a failed attempt is followed by the next one a main cycle later.
 //! * When a silent unit is missed (7.2.1): after 32 main cycles of the unit that waits, about half a second.
-//! * When monitoring looks: once in a main cycle. Its time runs from the main cycle that has seen the last frame.
+//! * When monitoring looks: once in a main cycle. Its time runs from the last frame, or from the begin of operational.
 //! * The phase of a cyclic TPDO: all count the governor's main cycles from its start.
 //! * What errors of the memories and the program do (3076 to 3094) lasts until they are cleared; what faults of the link
 //!   do (3070, 3071) ends with the fault, and the governor initialises the gateway anew (GW-NOTE-30).

@@ -1,36 +1,41 @@
 //! Monitoring in main cycles: of RPDOs by the governor, of the partner's heartbeat by the gateway.
 
 use super::period::Period;
+use edskit_runtime::{Instant, Microseconds};
 
-/// Monitors that something arrives within a number of main cycles.
+/// Monitors that something arrives in time.
 ///
-/// It looks once per main cycle. The time runs from the cycle that has seen the last arrival, or in which the monitoring
-/// began, and is over after as many cycles as the setting gives (7.1.5, 7.2.3; GW-TIMING-10, GW-TIMING-12).
+/// It looks once per main cycle: the time is over in the first one that is as long as the effective time, or longer, behind
+/// the last arrival or the begin (7.1.5, 7.2.3; GW-TIMING-10, GW-TIMING-12).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Monitoring {
-    cycles_without: u16,
+    /// The last arrival, or the begin.
+    since: Instant,
     has_arrived: bool,
     has_ever_arrived: bool,
     is_triggered: bool,
 }
 
 impl Monitoring {
+    /// The monitoring begins.
+    pub(super) fn begun(now: Instant) -> Self {
+        Self { since: now, ..Self::default() }
+    }
+
     /// Something has arrived.
-    pub(super) fn arrived(&mut self) {
+    pub(super) fn arrived(&mut self, now: Instant) {
+        self.since = now;
         self.has_arrived = true;
         self.has_ever_arrived = true;
     }
 
     /// A main cycle passes; `None` switches the monitoring off.
-    pub(super) fn main_cycle(&mut self, period: Option<Period>) {
+    pub(super) fn main_cycle(&mut self, now: Instant, period: Option<Period>) {
         if core::mem::take(&mut self.has_arrived) {
-            self.cycles_without = 0;
             self.is_triggered = false;
-            return;
         }
-        let Some(period) = period else { return };
-        self.cycles_without = self.cycles_without.saturating_add(1);
-        self.is_triggered |= self.cycles_without >= period.cycles;
+        let is_over = |period: Period| now.since(self.since) >= Microseconds(period.micros().into());
+        self.is_triggered |= period.is_some_and(is_over);
     }
 
     /// Whether the time is over.
@@ -49,28 +54,35 @@ mod tests {
     use super::super::period::MainCycle;
     use super::*;
 
+    /// A main cycle of the governor.
+    const CYCLE: u64 = 15_625;
+
     // GW-TIMING-11, GW-APP-08
     #[test]
-    fn it_triggers_after_its_cycles_and_clears_itself() {
-        let mut monitoring = Monitoring::default();
+    fn it_triggers_in_time_and_clears_itself() {
         let period = MainCycle::GOVERNOR.period(100);
-        let triggered = |monitoring: &mut Monitoring, cycles: u16| {
-            (0..cycles).for_each(|_| monitoring.main_cycle(period));
-            monitoring.is_triggered()
-        };
-        assert!(!triggered(&mut monitoring, 5) && triggered(&mut monitoring, 1), "6 cycles of 15.625 ms");
-        monitoring.arrived();
-        assert!(!triggered(&mut monitoring, 1 + 5) && triggered(&mut monitoring, 1));
-        monitoring.arrived();
-        assert!(!triggered(&mut monitoring, 1));
-        assert!(monitoring.has_ever_arrived());
+        // It begins, and something arrives, at any time between two main cycles.
+        for offset in [0, 1, 7_000, 15_624] {
+            let mut monitoring = Monitoring::begun(Instant(offset));
+            let triggered_at = |monitoring: &mut Monitoring, from: u64| {
+                (from..from + 20).find(|cycle| {
+                    monitoring.main_cycle(Instant(cycle * CYCLE), period);
+                    monitoring.is_triggered()
+                })
+            };
+            let first = if offset == 0 { 6 } else { 7 };
+            assert_eq!(triggered_at(&mut monitoring, 1), Some(first), "93.75 ms are 6 cycles");
+            monitoring.arrived(Instant(30 * CYCLE + offset));
+            assert_eq!(triggered_at(&mut monitoring, 31), Some(30 + first));
+            assert!(monitoring.has_ever_arrived());
+        }
     }
 
     // GW-TIMING-09, GW-HB-04
     #[test]
     fn without_a_time_it_never_triggers() {
-        let mut monitoring = Monitoring::default();
-        (0..u32::from(u16::MAX) + 9).for_each(|_| monitoring.main_cycle(None));
+        let mut monitoring = Monitoring::begun(Instant(0));
+        monitoring.main_cycle(Instant(u64::MAX), None);
         assert!(!monitoring.is_triggered() && !monitoring.has_ever_arrived());
     }
 }

@@ -3,6 +3,7 @@
 use super::super::governor::Governor;
 use super::super::identification::Identification;
 use super::super::inputs::CHANNELS;
+use super::super::monitoring::Monitoring;
 use super::super::state::State;
 use super::super::table::PdoTable;
 use super::super::{Configuration, Pdo};
@@ -64,8 +65,8 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
         let is_operational = to == NmtState::Operational;
         self.governor.reception.is_operational = is_operational;
         if is_operational {
-            self.governor.begin_operation();
-            self.gateway.heartbeat = Default::default();
+            self.governor.begin_operation(self.now);
+            self.gateway.heartbeat = Monitoring::begun(self.now);
             self.clear_errors();
         }
         let state = State::ALL.into_iter().find(|state| state.nmt() == Some(to));
@@ -114,7 +115,7 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
             }
         }
         if let Some(monitoring) = reception.monitoring.get_mut(usize::from(number).saturating_sub(1)) {
-            monitoring.arrived();
+            monitoring.arrived(self.now);
         }
         self.gateway.rpdo = Some(number);
     }

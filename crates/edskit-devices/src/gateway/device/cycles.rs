@@ -65,7 +65,8 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
     fn gateway_cycle(&mut self, now: Instant) {
         let plant = &mut self.plant;
         if plant.is_operational() {
-            plant.gateway.heartbeat.main_cycle(plant.parameters.effective().heartbeat_monitoring());
+            let period = plant.parameters.effective().heartbeat_monitoring();
+            plant.gateway.heartbeat.main_cycle(now, period);
         }
         let delay = plant.delay(GATEWAY_DELAY);
         let is_monitored = plant.is_set(GATEWAY_LINK) && plant.gateway.unit.age(now) >= delay;
@@ -81,7 +82,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         let is_monitored = plant.is_set(GOVERNOR_LINK) && plant.governor.unit.age(now) >= delay;
         let is_heard = plant.gateway.unit.is_on() && plant.link_works();
         plant.governor.silence.main_cycle(is_heard || !is_monitored);
-        plant.monitor_rpdos();
+        plant.monitor_rpdos(now);
         let inputs = Inputs { configuration: plant.parameters.effective(), reception: plant.reception() };
         plant.governor.model.main_cycle(&inputs);
         self.initialise(now);
@@ -196,11 +197,11 @@ impl<G: Governor, S: Storage> Plant<G, S> {
     }
 
     /// The monitoring of active RPDOs runs in operational (7.1.5; GW-APP-09).
-    fn monitor_rpdos(&mut self) {
+    fn monitor_rpdos(&mut self, now: Instant) {
         let is_operational = self.is_operational();
         let Some(table) = self.gateway.pdos.as_ref().filter(|_| is_operational) else { return };
         for (monitoring, rpdo) in self.governor.reception.monitoring.iter_mut().zip(&table.rpdos) {
-            monitoring.main_cycle(rpdo.period.filter(|_| rpdo.activity.is_active()));
+            monitoring.main_cycle(now, rpdo.period.filter(|_| rpdo.activity.is_active()));
         }
     }
 

@@ -73,7 +73,7 @@ struct Plant<G, S> {
     events: Events,
     /// Whether a unit has been switched on or off yet.
     has_begun: bool,
-    /// The time of the last call of [`Device::poll`].
+    /// The time of the last call as a [`Device`].
     now: Instant,
 }
 
@@ -137,9 +137,11 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         }
     }
 
-    /// A unit loses its supply.
+    /// A unit loses its supply; nothing happens where it has none.
     pub fn switch_off(&mut self, now: Instant, unit: Owner) {
-        self.plant.has_begun = true;
+        if !self.is_powered(unit) {
+            return;
+        }
         self.plant.unit_mut(unit).switch_off();
         self.plant.events.push(Event::Off(unit));
         if unit == Owner::Gateway {
@@ -147,10 +149,12 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         }
     }
 
-    /// A unit is reset: as if it lost its supply for a moment.
+    /// A unit is reset, as if it lost its supply for a moment; nothing happens where it has none.
     pub fn reset(&mut self, now: Instant, unit: Owner) {
-        self.switch_off(now, unit);
-        self.start(now, unit);
+        if self.is_powered(unit) {
+            self.switch_off(now, unit);
+            self.start(now, unit);
+        }
     }
 
     fn start(&mut self, now: Instant, unit: Owner) {
@@ -218,6 +222,7 @@ impl<G: Governor, S: Storage> Device for Gateway<G, S> {
         if !self.plant.hears() || frame.can_id().is_extended() || frame.is_remote() {
             return;
         }
+        self.plant.now = now;
         self.plant.partner_heard(frame);
         self.node.receive(now, frame, &mut self.plant);
         self.plant.record_rpdo(now, frame);

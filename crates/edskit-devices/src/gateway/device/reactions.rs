@@ -4,7 +4,7 @@ use super::super::error::{CanOpenError, GatewayError};
 use super::super::event::Event;
 use super::super::governor::Governor;
 use super::super::state::{Commander, State};
-use super::side::Phase;
+use super::side::{Phase, Silence};
 use super::{Fault, Gateway, Plant};
 use edskit_runtime::{Frame, Instant, Microseconds, Storage};
 use edskit_types::{CanId, NmtState};
@@ -127,7 +127,7 @@ impl<G: Governor, S: Storage> Plant<G, S> {
     /// Whether the cause of an error is present now.
     fn causes(&self, error: GatewayError) -> bool {
         match error {
-            GatewayError::CanComm1 if self.gateway.silence.is_too_long() => true,
+            GatewayError::CanComm1 if self.misses(self.gateway.silence) => true,
             GatewayError::Voltage => self.gateway.supply < LEAST_SUPPLY,
             _ => self.faults.iter().any(|fault| fault.gateway_error() == Some(error)),
         }
@@ -139,8 +139,13 @@ impl<G: Governor, S: Storage> Plant<G, S> {
         is_on
             && match error {
                 CanOpenError::GovernorCanBus => self.faults.has(Fault::GovernorCanBus),
-                _ => self.faults.has(Fault::GovernorCanComm) || self.governor.silence.is_too_long(),
+                _ => self.faults.has(Fault::GovernorCanComm) || self.misses(self.governor.silence),
             }
+    }
+
+    /// Whether a unit has missed the other one for too long, and still does.
+    pub(super) fn misses(&self, silence: Silence) -> bool {
+        silence.is_too_long() && !self.hears_governor()
     }
 
     /// Whether communication on CANopen is impossible: the cause of a fault between the units is present, or an error of

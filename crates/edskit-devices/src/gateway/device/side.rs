@@ -93,8 +93,8 @@ impl<G> GovernorSide<G> {
     }
 
     /// Operational is entered: all monitoring begins (7.1.5; GW-APP-09), and nothing has been sent yet (GW-GAP-10).
-    pub(super) fn begin_operation(&mut self) {
-        self.reception.monitoring = [Monitoring::default(); 4];
+    pub(super) fn begin_operation(&mut self, now: Instant) {
+        self.reception.monitoring = [Monitoring::begun(now); 4];
         self.sent = [None; 3];
     }
 }

@@ -131,7 +131,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
             // The governor is bit 0 in those that are coded by the type of the device (our choice).
             2401 => flag(gateway.buffer_states[0]),
             2402 => flag(gateway.buffer_states[1]),
-            2403 => flag(gateway.silence.is_too_long()),
+            2403 => flag(self.plant.misses(gateway.silence)),
             2404 => flag(self.plant.faults.has(Fault::DuplicateGateway)),
             2405 => flag(self.plant.hears_governor()),
             2410 => Some(self.plant.nodes() >> 16),
@@ -185,7 +185,7 @@ impl<G: Governor, S: Storage> Plant<G, S> {
         if let (true, &[code]) = (is_from_partner, frame.data())
             && NmtState::from_code(code).is_some()
         {
-            self.gateway.heartbeat.arrived();
+            self.gateway.heartbeat.arrived(self.now);
         }
     }
 

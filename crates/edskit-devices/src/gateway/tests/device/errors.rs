@@ -132,6 +132,8 @@ fn a_unit_without_supply_is_missed() {
     bench.pass(2_000_000);
     assert_eq!((bench.gateway.state(), can_open(&bench)), (State::Undefined, [12411, 12415, 12422].into()));
     remove(&mut bench, Fault::LinkBroken);
+    clear(&mut bench);
+    assert_eq!(can_open(&bench), [], "what is over can be cleared at once");
     boots_up(&mut bench);
 }
 

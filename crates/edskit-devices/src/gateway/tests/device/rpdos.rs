@@ -133,8 +133,7 @@ fn monitoring_triggers_in_main_cycles_and_clears_itself() {
             bench.gateway.can_open_errors().contains(CanOpenError::TimeControl)
         };
         bench.ask(can_id, &[9; 8]);
-        // The main cycle that sees the frame begins the time.
-        assert!(!wait(&mut bench, 1 + cycles - 1), "RPDO{rpdo} is in time");
+        assert!(!wait(&mut bench, cycles - 1), "RPDO{rpdo} is in time");
         keep_alive(&mut bench);
         bench.pass(DC - 1);
         assert!(!bench.gateway.can_open_errors().contains(CanOpenError::TimeControl));
@@ -151,9 +150,16 @@ fn monitoring_triggers_in_main_cycles_and_clears_itself() {
         assert_eq!(bench.gateway.inputs().sensor(parameter(number)), Some(Sensor::Valid(0x0909)));
         assert!(bench.gateway.errors().next().is_none());
         // Outside operational nothing is monitored.
-        assert!(wait(&mut bench, cycles + 1));
+        assert!(wait(&mut bench, cycles));
         bench.nmt(128);
         assert!(!wait(&mut bench, cycles + 1));
+        // Between two main cycles: never early, at most a main cycle late.
+        bench.pass(7_000);
+        bench.nmt(1);
+        assert!(!wait(&mut bench, cycles));
+        keep_alive(&mut bench);
+        bench.pass(DC - 7_000);
+        assert!(bench.gateway.can_open_errors().contains(CanOpenError::TimeControl));
     }
 }
 

@@ -166,6 +166,8 @@ fn a_power_cycle_begins_anew() {
     bench.gateway.switch_off(now, Owner::Gateway);
     bench.gateway.switch_off(now, Owner::Governor);
     assert_eq!(bench.pass(1_000_000), [], "no supply");
+    bench.gateway.reset(now, Owner::Gateway);
+    assert!(!bench.gateway.is_powered(Owner::Gateway), "a reset brings no supply");
     assert_eq!(bench.nmt(1), []);
     let now = bench.now;
     bench.gateway.switch_on(now, Owner::Governor);
