@@ -1,7 +1,7 @@
-//! Devices that edskit models: what their parameters mean and what follows from them.
+//! Devices that edskit models: what their parameters mean, what follows from them, and the live devices themselves.
 //!
-//! The crate is `no_std` and allocates nothing, because the devices run it themselves; the command line runs the same
-//! functions over parameter files. Texts for people, files and formats belong to the command line.
+//! The crate is `no_std` and allocates nothing: what runs on a computer can run on a microcontroller. The command line runs
+//! the same functions over parameter files. Files and formats belong to the command line.
 //!
 //! | device | module |
 //! |---|---|
