@@ -3,10 +3,6 @@
 use super::table::PdoTable;
 use edskit_types::{CanId, Claim, IdentifierRules, NodeId, Party, SdoMessage, SdoRole};
 
-/// 12412 CanOpInitErr: the configuration cannot be carried out (9.5; GW-CFG-17, GW-APP-19).
-pub const CAN_OP_INIT_ERR: u16 = 12412;
-/// 3074 ErrCanOpen, which every error of CANopen raises in the gateway and in the governor (7.3, 9.5; GW-CFG-17).
-pub const ERR_CAN_OPEN: u16 = 3074;
 /// After so many failures the gateway gives up: its state stays undefined, there is no object dictionary and no
 /// communication on CANopen (9.5; GW-APP-14).
 pub const INITIALISATION_ATTEMPTS: u8 = 3;

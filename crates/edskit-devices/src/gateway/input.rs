@@ -15,7 +15,7 @@ const SENSOR_TYPES: Parameter = known(Owner::Governor, 4900);
 
 /// Bits of the word for switch functions, and the CANopen channels (GW-CFG-04, GW-PDO-16).
 const BITS: u32 = 16;
-const CHANNELS: i32 = 12;
+pub(super) const CHANNELS: i32 = 12;
 
 /// A switch function or a sensor whose type says that it comes from CANopen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

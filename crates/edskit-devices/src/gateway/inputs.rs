@@ -1,19 +1,15 @@
 //! What the governor gets from CANopen, with the error conditions of 9.6 and 9.7.
 
 use super::configuration::Configuration;
-use super::input::{Input, Target};
+use super::input::{CHANNELS, Input, Target};
 use super::monitoring::Monitoring;
 use super::parameter::Parameter;
 
-/// How many CANopen channels there are (7.1.4.2; GW-PDO-16).
-pub(super) const CHANNELS: usize = 12;
 /// The error of the first sensor, P3005 ErrSetpointExtern (9.6; GW-APP-11). That the following sensors have the
 /// following numbers is our choice.
 const FIRST_SENSOR_ERROR: u16 = 3005;
 /// The errors below the gateway's own, 3070, are the sensors'.
 const SENSOR_ERRORS: u16 = 3070 - FIRST_SENSOR_ERROR;
-/// The first sensor's assignment.
-const FIRST_SENSOR: u16 = 900;
 
 /// What CANopen delivers to the governor at one main cycle.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +26,7 @@ pub(super) struct Reception {
     /// Word 3 of RPDO 1, the error flags (GW-APP-07).
     pub(super) flags: u16,
     /// The words of RPDO 2 to 4.
-    pub(super) channels: [u16; CHANNELS],
+    pub(super) channels: [u16; CHANNELS as usize],
     pub(super) is_operational: bool,
     /// Those of RPDO 1 to 4.
     pub(super) monitoring: [Monitoring; 4],
@@ -91,7 +87,7 @@ impl Inputs<'_> {
 
 /// The error of the sensor with this assignment, for as many as have numbers below the gateway's errors.
 fn sensor_error(assignment: Parameter) -> Option<u16> {
-    let nth = assignment.number().checked_sub(FIRST_SENSOR)?;
+    let nth = assignment.offset;
     (nth < SENSOR_ERRORS).then_some(FIRST_SENSOR_ERROR + nth)
 }
 

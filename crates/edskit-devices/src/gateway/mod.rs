@@ -81,7 +81,7 @@ mod telegram;
 mod traffic;
 
 pub use amount::{Allowed, Amount};
-pub use check::{CAN_OP_INIT_ERR, Claims, ERR_CAN_OPEN, INITIALISATION_ATTEMPTS, RULES};
+pub use check::{Claims, INITIALISATION_ATTEMPTS, RULES};
 pub use configuration::{Configuration, OutOfRange};
 pub use device::Gateway;
 pub use engine::Engine;

@@ -3,7 +3,7 @@
 use super::problem::{self, Problem};
 use super::reading::Reading;
 use edskit_devices::gateway::{
-    Activity, CAN_OP_INIT_ERR, ERR_CAN_OPEN, INITIALISATION_ATTEMPTS, Input, Parameter, Pdo, PdoTable, RULES,
+    Activity, CanOpenError, GatewayError, INITIALISATION_ATTEMPTS, Input, Parameter, Pdo, PdoTable, RULES,
     Source, Target,
 };
 use edskit_lint::Label;
@@ -92,7 +92,9 @@ fn equal_node_ids(reading: &Reading, table: &PdoTable) -> Problem {
 /// What the device does.
 fn consequence() -> String {
     format!(
-        "with this the initialisation fails, and after {INITIALISATION_ATTEMPTS} attempts the gateway stays off CANopen with {CAN_OP_INIT_ERR} CanOpInitErr and {ERR_CAN_OPEN} ErrCanOpen"
+        "with this the initialisation fails, and after {INITIALISATION_ATTEMPTS} attempts the gateway stays off CANopen with {} and {}",
+        CanOpenError::Init,
+        GatewayError::CanOpen
     )
 }
 

@@ -2,7 +2,7 @@
 
 use super::Report;
 use super::view::{HeartbeatView, PdoView, TimeView, View};
-use edskit_devices::gateway::{CAN_OP_INIT_ERR, INITIALISATION_ATTEMPTS};
+use edskit_devices::gateway::{CanOpenError, INITIALISATION_ATTEMPTS};
 use edskit_lint::Severity;
 use std::io::{self, Write};
 
@@ -21,7 +21,8 @@ pub(super) fn write(report: &Report, excerpts: &str, quiet: bool, out: &mut dyn 
         Some(true) => writeln!(out, "\nThe gateway's own check at its initialisation passes.")?,
         Some(false) => writeln!(
             out,
-            "\nThe gateway refuses this configuration: after {INITIALISATION_ATTEMPTS} attempts it stays off CANopen with {CAN_OP_INIT_ERR} CanOpInitErr."
+            "\nThe gateway refuses this configuration: after {INITIALISATION_ATTEMPTS} attempts it stays off CANopen with {}.",
+            CanOpenError::Init
         )?,
         None => {}
     }

@@ -2,7 +2,6 @@
 
 use super::super::governor::Governor;
 use super::super::identification::Identification;
-use super::super::inputs::CHANNELS;
 use super::super::monitoring::Monitoring;
 use super::super::state::State;
 use super::super::table::PdoTable;
@@ -23,8 +22,8 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
         match (entry.index.0, entry.sub_index.0) {
             (0x1001, _) => objects.set(entries::ERROR_REGISTER, self.error_register()),
             (0x2000, sub_index @ 1..=6) => {
-                let word = (self.errors() >> (16 * (u32::from(sub_index) - 1))) as u16;
-                objects.set_value(entry.index, sub_index, word);
+                let word = self.error_words().get(usize::from(sub_index) - 1).copied();
+                objects.set_value(entry.index, sub_index, word.unwrap_or_default());
             }
             (0x2000, 7) => objects.set_value(entry.index, 7, u16::from(self.governor.model.engine_status())),
             (0x2005, _) => objects.set(entries::CAN_OPEN_ERRORS, self.gateway.can_open.0),
@@ -176,5 +175,3 @@ fn indices(pdo: &Pdo) -> (Index, Index) {
     let offset = u16::from(pdo.number) - 1;
     (Index(communication.0 + offset), Index(mapping.0 + offset))
 }
-
-const _: () = assert!(CHANNELS == 12, "2004h has an entry for each channel");

@@ -1,13 +1,12 @@
 //! What both units do in their main cycles.
 
-use super::super::control_unit::Step;
+use super::super::control_unit::{ControlUnit, Step};
 use super::super::governor::Governor;
 use super::super::inputs::{Inputs, Reception};
 use super::super::parameter::{Owner, Parameter, known};
 use super::super::pdo::{Pdo, Source};
 use super::{Gateway, Plant, node};
-use crate::gateway::dictionary::canopen_gateway::objects;
-use edskit_runtime::{Handle, Instant, Microseconds, Objects, Storage};
+use edskit_runtime::{Instant, Microseconds, Objects, Storage};
 
 /// How long each unit waits after its start before it misses the other one (7.2.1; GW-CFG-31).
 const GATEWAY_DELAY: Parameter = known(Owner::Gateway, 400);
@@ -20,16 +19,6 @@ const GATEWAY_NUMBER: Parameter = known(Owner::Gateway, 401);
 const GOVERNOR_NUMBER_OF_GATEWAY: Parameter = known(Owner::Gateway, 402);
 pub(super) const GOVERNOR_NUMBER: Parameter = known(Owner::Governor, 401);
 const GATEWAY_NUMBER_OF_GOVERNOR: Parameter = known(Owner::Governor, 403);
-
-/// The words of errors in 2000h (5.1.1; GW-OD-13).
-const ERROR_WORDS: [Handle<u16>; 6] = [
-    objects::DIGITAL_OUTPUTS_ERRORS_0_15,
-    objects::DIGITAL_OUTPUTS_ERRORS_16_31,
-    objects::DIGITAL_OUTPUTS_ERRORS_32_47,
-    objects::DIGITAL_OUTPUTS_ERRORS_48_63,
-    objects::DIGITAL_OUTPUTS_ERRORS_64_79,
-    objects::DIGITAL_OUTPUTS_ERRORS_80_95,
-];
 
 impl<G: Governor, S: Storage> Gateway<G, S> {
     /// Every start and main cycle that is due, in the order of time; the governor first where both are.
@@ -68,20 +57,16 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
             let period = plant.parameters.effective().heartbeat_monitoring();
             plant.gateway.heartbeat.main_cycle(now, period);
         }
-        let delay = plant.delay(GATEWAY_DELAY);
-        let is_monitored = plant.is_set(GATEWAY_LINK) && plant.gateway.unit.age(now) >= delay;
-        let is_heard = plant.governor.unit.is_on() && plant.link_works();
-        plant.gateway.silence.main_cycle(is_heard || !is_monitored);
+        let is_missed = plant.would_miss(&plant.gateway.unit, now, GATEWAY_LINK, GATEWAY_DELAY);
+        plant.gateway.silence.main_cycle(!is_missed);
         self.update_errors(now);
     }
 
     fn governor_cycle(&mut self, now: Instant) {
         let plant = &mut self.plant;
         plant.governor.cycles = plant.governor.cycles.wrapping_add(1);
-        let delay = plant.delay(GOVERNOR_DELAY);
-        let is_monitored = plant.is_set(GOVERNOR_LINK) && plant.governor.unit.age(now) >= delay;
-        let is_heard = plant.gateway.unit.is_on() && plant.link_works();
-        plant.governor.silence.main_cycle(is_heard || !is_monitored);
+        let is_missed = plant.would_miss(&plant.governor.unit, now, GOVERNOR_LINK, GOVERNOR_DELAY);
+        plant.governor.silence.main_cycle(!is_missed);
         plant.monitor_rpdos(now);
         let inputs = Inputs { configuration: plant.parameters.effective(), reception: plant.reception() };
         plant.governor.model.main_cycle(&inputs);
@@ -100,9 +85,6 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         let mut count = 0;
         let errors = self.plant.error_words();
         let mut objects = self.node.objects();
-        for (handle, word) in ERROR_WORDS.into_iter().zip(errors) {
-            objects.set(handle, word);
-        }
         for tpdo in table.tpdos.iter().filter(|tpdo| tpdo.activity.is_active()) {
             let governor = &mut self.plant.governor;
             let is_due = match tpdo.period {
@@ -141,15 +123,13 @@ fn binary_words(tpdo: &Pdo, errors: [u16; 6], status: u8) -> [u16; 4] {
     words
 }
 
-/// Puts the governor's values into the entries that a TPDO carries; the errors are there already.
+/// Puts the governor's values into the entries that a TPDO carries. Errors and status are brought up to date whenever
+/// they are read.
 fn write_words(objects: &mut Objects<'_>, tpdo: &Pdo, governor: &impl Governor) {
     for word in tpdo.words() {
-        let value = match word.source {
-            Source::Signal { number, .. } => governor.value(number),
-            Source::EngineStatus => governor.engine_status().into(),
-            _ => continue,
-        };
-        objects.set_value(word.object.index(), word.object.sub_index().0, value);
+        if let Source::Signal { number, .. } = word.source {
+            objects.set_value(word.object.index(), word.object.sub_index().0, governor.value(number));
+        }
     }
 }
 
@@ -177,8 +157,12 @@ impl<G: Governor, S: Storage> Plant<G, S> {
         self.parameters.effective().get(parameter) != 0
     }
 
-    fn delay(&self, parameter: Parameter) -> Microseconds {
-        Microseconds::from_milliseconds(self.parameters.effective().get(parameter).unsigned_abs())
+    /// Whether a unit that works hears nothing of the other one, although it is to communicate with it (`link`) and its
+    /// delay after the start (`delay`) is over.
+    fn would_miss(&self, unit: &ControlUnit, now: Instant, link: Parameter, delay: Parameter) -> bool {
+        let delay = self.parameters.effective().get(delay).unsigned_abs();
+        let is_monitored = self.is_set(link) && unit.age(now) >= Microseconds::from_milliseconds(delay);
+        is_monitored && !self.hears_governor()
     }
 
     /// Whether telegrams pass between the units (7.1.1, 7.2.1; GW-CFG-32 to GW-CFG-34).
@@ -229,7 +213,7 @@ impl<G: Governor, S: Storage> Plant<G, S> {
     }
 
     /// The 96 errors of governor and gateway, bit k of the whole for 3000 + k (GW-NOTE-05).
-    fn error_words(&self) -> [u16; 6] {
+    pub(super) fn error_words(&self) -> [u16; 6] {
         let mut errors = self.errors();
         [(); 6].map(|()| {
             let word = errors as u16;

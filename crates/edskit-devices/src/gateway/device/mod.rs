@@ -234,7 +234,6 @@ impl<G: Governor, S: Storage> Device for Gateway<G, S> {
         if !self.plant.has_begun {
             self.switch_on(now, Owner::Governor);
             self.switch_on(now, Owner::Gateway);
-            self.node.poll(now, &mut self.plant);
         }
         self.run_cycles(now);
         self.node.poll(now, &mut self.plant);

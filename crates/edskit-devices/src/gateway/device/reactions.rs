@@ -7,7 +7,7 @@ use super::super::state::{Commander, State};
 use super::side::{Phase, Silence};
 use super::{Fault, Gateway, Plant};
 use edskit_runtime::{Frame, Instant, Microseconds, Storage};
-use edskit_types::{CanId, NmtState};
+use edskit_types::{NmtState, Party};
 
 /// The supply below which 3085 ErrVoltage is told, in mV (9.4; GW-APP-34).
 const LEAST_SUPPLY: u16 = 7_500;
@@ -76,7 +76,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
             Some(_) => NmtState::PreOperational,
             None => NmtState::Initialising,
         };
-        let can_id = CanId::standard(0x700 + u16::from(configuration.node_id().get()));
+        let can_id = Party::Heartbeat.predefined_can_id(configuration.node_id());
         gateway.probe_frame = can_id.map(|can_id| Frame::new(can_id, &[state.code()]));
     }
 

@@ -13,7 +13,7 @@ use super::super::traffic::Traffic;
 use super::side::Phase;
 use super::{Fault, Gateway, Plant};
 use edskit_runtime::{Frame, Instant, Storage};
-use edskit_types::{Bitrate, NmtState, PdoDirection};
+use edskit_types::{Bitrate, NmtState, Party, PdoDirection};
 
 impl<G: Governor, S: Storage> Gateway<G, S> {
     /// The state on CANopen (3).
@@ -180,8 +180,10 @@ impl<G: Governor, S: Storage> Plant<G, S> {
 
     /// A frame that may be the heartbeat of the partner (6, 7.2.3; GW-HB-04, GW-HB-07).
     pub(super) fn partner_heard(&mut self, frame: &Frame) {
-        let partner = self.parameters.effective().partner_node_id();
-        let is_from_partner = partner > 0 && frame.can_id().raw() == 0x700 + u32::from(partner);
+        let configuration = self.parameters.effective();
+        let partner = configuration.partner_node_id();
+        let can_id = Party::HeartbeatOf(partner).predefined_can_id(configuration.node_id());
+        let is_from_partner = partner > 0 && can_id == Some(frame.can_id());
         if let (true, &[code]) = (is_from_partner, frame.data())
             && NmtState::from_code(code).is_some()
         {
