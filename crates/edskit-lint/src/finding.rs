@@ -152,19 +152,24 @@ impl Edit {
     pub fn insert(offset: u32, text: impl Into<String>) -> Self {
         Self::replace(Span::at(offset), text)
     }
-}
 
-impl Fix {
-    /// The source with the edits made.
-    pub fn apply(&self, source: &[u8]) -> Vec<u8> {
+    /// The source with edits made, which are in ascending order and do not overlap.
+    pub fn apply_all(edits: &[Self], source: &[u8]) -> Vec<u8> {
         let mut result = Vec::with_capacity(source.len());
         let mut done = 0;
-        for edit in &self.edits {
+        for edit in edits {
             result.extend_from_slice(&source[done..edit.span.start as usize]);
             result.extend_from_slice(edit.replacement.as_bytes());
             done = edit.span.end as usize;
         }
         result.extend_from_slice(&source[done..]);
         result
+    }
+}
+
+impl Fix {
+    /// The source with the edits made.
+    pub fn apply(&self, source: &[u8]) -> Vec<u8> {
+        Edit::apply_all(&self.edits, source)
     }
 }

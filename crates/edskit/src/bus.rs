@@ -11,7 +11,7 @@ use std::time::Duration;
 pub(crate) fn run(arguments: &BusArguments, streams: &mut Streams) -> io::Result<Exit> {
     let log = Log::new(arguments.log);
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
-    let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
+    let stop = Stop::on_request().map_err(io::Error::other)?;
     let hub = start_hub(arguments.listen).map_err(io::Error::other)?;
     log.hub(streams, &hub)?;
     // Without a trace nobody needs the frames.

@@ -240,6 +240,11 @@ pub(crate) enum ConfigCommand {
     /// The file is TOML. It names the device (`device = "heinzmann-canopen-gateway"`) and gives the parameters of the
     /// gateway and of the governor behind it; docs/gateway-parameters.md describes it.
     Check(ConfigCheckArguments),
+    /// Write the DCF of the device that has these parameters
+    ///
+    /// It is the data sheet of the gateway with what the parameters make of it: node-ID, bit rate, the entries that exist,
+    /// and what they hold after a start. What there is to say on the parameters is printed to the error stream.
+    Dcf(ConfigDcfArguments),
 }
 
 #[derive(Args, Debug)]
@@ -259,6 +264,16 @@ pub(crate) struct ConfigCheckArguments {
     /// When to use colour
     #[arg(long, value_enum, default_value_t = Color::Auto)]
     pub(crate) color: Color,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigDcfArguments {
+    /// The file with the parameters; `-` reads standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// Where the DCF goes; standard output if not given
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]

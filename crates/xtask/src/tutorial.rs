@@ -82,7 +82,9 @@ fn steps(text: &str) -> Vec<Step> {
             }
         } else if let Some(command) = line.strip_prefix("    $ ") {
             let mut output = Vec::new();
-            while let Some(shown) = lines.peek().and_then(|line| line.strip_prefix("    ")) {
+            let is_output = |line: &&str| !line.starts_with("$ ");
+            while let Some(shown) = lines.peek().and_then(|line| line.strip_prefix("    ")).filter(is_output)
+            {
                 output.push(shown.to_owned());
                 lines.next();
             }
@@ -190,10 +192,11 @@ mod tests {
 
     #[test]
     fn files_and_commands() {
-        let text = "Text.\n\n```toml\n# a.toml\nx = 1\n```\n\n```toml\nx = 2\n```\n\n    $ edskit fmt a\n    one\n      two\n\nMore.\n";
+        let text = "Text.\n\n```toml\n# a.toml\nx = 1\n```\n\n```toml\nx = 2\n```\n\n    $ edskit fmt a\n    one\n      two\n    $ edskit lint a\n\nMore.\n";
         let expected = [
             Step::File { name: "a.toml".to_owned(), text: "# a.toml\nx = 1\n".to_owned() },
             Step::Command { line: "edskit fmt a".to_owned(), output: lines("one\n  two") },
+            Step::Command { line: "edskit lint a".to_owned(), output: Vec::new() },
         ];
         assert_eq!(steps(text), expected);
     }

@@ -4,6 +4,7 @@ use super::error::{CanOpenError, GatewayError};
 use super::parameter::Owner;
 use super::state::State;
 use super::telegram::StructureError;
+use core::fmt;
 use edskit_types::Conflict;
 use heapless::Deque;
 
@@ -53,6 +54,15 @@ pub enum Refusal {
     Structure(StructureError),
     /// Two identifiers are equal, or one is reserved.
     Conflict(Conflict),
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Structure(error) => error.fmt(f),
+            Self::Conflict(conflict) => conflict.fmt(f),
+        }
+    }
 }
 
 /// Events that wait; where there are too many, the oldest go.

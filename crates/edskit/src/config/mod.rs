@@ -2,6 +2,7 @@
 
 mod advice;
 mod collisions;
+mod dcf;
 mod human;
 mod json;
 mod key;
@@ -33,6 +34,7 @@ use view::View;
 pub(crate) fn run(arguments: &ConfigArguments, streams: &mut Streams) -> io::Result<Exit> {
     match &arguments.command {
         ConfigCommand::Check(arguments) => check(arguments, streams),
+        ConfigCommand::Dcf(arguments) => dcf::run(arguments, streams),
     }
 }
 

@@ -31,11 +31,16 @@ impl KnownDevice {
         self.sheet.dictionary_entry(index, sub_index)
     }
 
-    /// `Identity object/Vendor-ID`, or the name alone for an object without sub-objects; `None` where the file names
-    /// nothing there.
+    /// What a DCF calls the entry in this device (`Denotation`), else `Identity object/Vendor-ID`, or the name alone for
+    /// an object without sub-objects; `None` where the file names nothing there.
     pub(crate) fn name(&self, index: Index, sub_index: SubIndex) -> Option<String> {
         let object = self.sheet.object(index)?;
-        Some(full_name(object, object.dictionary_entry(sub_index)?)).filter(|name| !name.is_empty())
+        let entry = object.dictionary_entry(sub_index)?;
+        let name = match entry.denotation() {
+            Some(denotation) => printable::line(&denotation),
+            None => full_name(object, entry),
+        };
+        Some(name).filter(|name| !name.is_empty())
     }
 }
 

@@ -1,4 +1,4 @@
-//! Ctrl-C.
+//! Ctrl-C, and what else asks a command to end.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,12 +7,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(crate) struct Stop(Arc<AtomicBool>);
 
 impl Stop {
-    /// From now on Ctrl-C does not end the process but is noted.
-    pub(crate) fn on_ctrl_c() -> Result<Self, String> {
+    /// From now on Ctrl-C does not end the process but is noted; on Unix neither do SIGTERM and SIGHUP, so that what
+    /// manages processes, or a terminal that is closed, ends a command as its user does.
+    pub(crate) fn on_request() -> Result<Self, String> {
         let asked = Arc::new(AtomicBool::new(false));
         let noted = Arc::clone(&asked);
         ctrlc::set_handler(move || noted.store(true, Ordering::Relaxed))
-            .map_err(|error| format!("Ctrl-C cannot be caught: {error}"))?;
+            .map_err(|error| format!("signals cannot be caught: {error}"))?;
         Ok(Self(asked))
     }
 

@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &MonitorArguments, streams: &mut Streams) -> io::Re
     let log = Log::new(arguments.log);
     let network = Network::read(&arguments.devices).map_err(io::Error::other)?;
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
-    let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
+    let stop = Stop::on_request().map_err(io::Error::other)?;
     // A hub lives as long as its monitor.
     let (bus, _hub): (Box<dyn Bus + Send>, _) = if arguments.bus == Address::Hub {
         let hub = start_hub(None).map_err(io::Error::other)?;

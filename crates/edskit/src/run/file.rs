@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     if let Some(hub) = &hub {
         log.hub(streams, hub)?;
     }
-    let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
+    let stop = Stop::on_request().map_err(io::Error::other)?;
     log::node(&log, streams, node_id, layout.product.as_deref())?;
     let settings = Settings { node_id: Some(node_id), ..Settings::default() };
     let node = Node::new(LoadedDictionary::new(&layout), settings, MemoryStorage::default());

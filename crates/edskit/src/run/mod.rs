@@ -1,7 +1,7 @@
 //! `edskit run`: a device as a live node on a bus.
 
 mod file;
-mod gateway;
+pub(crate) mod gateway;
 
 use crate::cli::RunArguments;
 use crate::live::{TraceFile, start_hub};

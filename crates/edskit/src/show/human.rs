@@ -1,7 +1,7 @@
 //! The device as text.
 
 use super::layout;
-use super::view::{DeviceView, EntryView, ObjectView, PdoView};
+use super::view::{DeviceView, EntryView, ObjectView, PdoView, titled};
 use std::io::{self, Write};
 
 /// Columns of a name before it is cut; longer ones are rare and would push everything aside.
@@ -113,10 +113,7 @@ fn entry_row(entry: &EntryView, place: &str, out: &mut dyn Write) -> io::Result<
         let limit = |text: &Option<String>| text.clone().unwrap_or_default();
         value = format!("{value}  [{}..{}]", limit(&entry.low_limit), limit(&entry.high_limit));
     }
-    let name = match &entry.denotation {
-        Some(denotation) => format!("{} \"{denotation}\"", entry.name),
-        None => entry.name.clone(),
-    };
+    let name = titled(&entry.name, entry.denotation.as_deref());
     let row = format!(
         "{place:<9}{:<NAME_WIDTH$} {:<16}{:<7}{:<5}{value}",
         shortened(&name),

@@ -1,6 +1,6 @@
 //! The picture of a PDO: one row for each mapped entry, one mark for each bit.
 
-use super::view::MappedView;
+use super::view::{MappedView, titled};
 use std::io::{self, Write};
 
 /// Bits of a PDO.
@@ -14,7 +14,8 @@ pub(super) fn write(mapped: &[MappedView], total: u32, out: &mut dyn Write) -> i
         let places: Vec<String> =
             (0..bytes).map(|byte| (byte * 8..byte * 8 + 8).map(|bit| mark(entry, bit)).collect()).collect();
         let place = format!("{:04X}:{:02X}", entry.index, entry.sub_index);
-        writeln!(out, "    {}  {place}  {:>2} bits  {}", places.join(" "), entry.bits, entry.name)?;
+        let name = titled(&entry.name, entry.denotation.as_deref());
+        writeln!(out, "    {}  {place}  {:>2} bits  {name}", places.join(" "), entry.bits)?;
     }
     if total > PDO_BITS {
         writeln!(out, "    {total} bits are mapped, but a PDO holds {PDO_BITS}")?;
@@ -38,6 +39,7 @@ mod tests {
             index,
             sub_index: 0,
             name: name.to_owned(),
+            denotation: None,
             first_bit,
             bits,
         };

@@ -3,6 +3,7 @@
 use edskit_model::{Datasheet, Description, DictionaryEntry, Entry, Object, Pdo, SectionKind, Value};
 use edskit_types::{DataType, Index, MappingEntry, NodeId, PdoDirection, SubIndex};
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// Reads a datasheet for people.
 pub(super) struct Viewer<'a> {
@@ -94,6 +95,7 @@ pub(super) struct MappedView {
     pub(super) index: u16,
     pub(super) sub_index: u8,
     pub(super) name: String,
+    pub(super) denotation: Option<String>,
     pub(super) first_bit: u32,
     pub(super) bits: u8,
 }
@@ -288,6 +290,7 @@ impl Viewer<'_> {
 
     fn mapped(&self, entry: MappingEntry, first_bit: u32) -> MappedView {
         let (index, sub_index) = (entry.index(), entry.sub_index());
+        let described = self.sheet.dictionary_entry(index, sub_index);
         let name = if entry.0 == 0 {
             "(nothing)".to_owned()
         } else if entry.is_dummy() {
@@ -297,13 +300,22 @@ impl Viewer<'_> {
                 data_type.map_or_else(|| index.to_string(), |data_type| data_type.name().to_owned())
             )
         } else {
-            match self.sheet.dictionary_entry(index, sub_index) {
-                Some(entry) => entry.name().into_owned(),
-                None => "(not described)".to_owned(),
-            }
+            described.map_or_else(|| "(not described)".to_owned(), |entry| entry.name().into_owned())
         };
-        MappedView { index: index.0, sub_index: sub_index.0, name, first_bit, bits: entry.bits() }
+        MappedView {
+            index: index.0,
+            sub_index: sub_index.0,
+            name,
+            denotation: described.and_then(DictionaryEntry::denotation).map(Cow::into_owned),
+            first_bit,
+            bits: entry.bits(),
+        }
     }
+}
+
+/// A name, and what the entry is called in this device.
+pub(super) fn titled(name: &str, denotation: Option<&str>) -> String {
+    denotation.map_or_else(|| name.to_owned(), |denotation| format!("{name} \"{denotation}\""))
 }
 
 fn name_of(description: Description<'_>) -> String {

@@ -57,7 +57,7 @@ fn a_scenario_goes_on_in_real_time_until_ctrl_c() {
     ]);
     gateway.wait_for("  scenario: nmt start");
     gateway.wait_for("  operational");
-    assert_eq!(gateway.interrupt(), 0);
+    assert_eq!(gateway.end("INT"), 0);
     let times: Vec<f64> = gateway.lines()[2..]
         .iter()
         .map(|line| line.split_whitespace().next().unwrap().parse().expect("a line begins with its time"))

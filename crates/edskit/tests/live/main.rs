@@ -193,7 +193,7 @@ fn the_monitor_shows_what_happens() {
     monitor.wait_for("TPDO1");
     edskit(&["nmt", "5", "reset", "--bus", &bus]);
     monitor.wait_for("boot-up");
-    assert_eq!(monitor.interrupt(), 0);
+    assert_eq!(monitor.end("INT"), 0);
     let mut lines: Vec<String> = monitor.lines();
     lines.retain(|line| !line.contains("heartbeat"));
     // The event timer of the TPDO may have run several times.
@@ -207,7 +207,7 @@ fn the_monitor_shows_what_happens() {
 
 #[cfg(unix)]
 #[test]
-fn a_bus_has_clients_and_ends_on_ctrl_c() {
+fn a_bus_has_clients_and_ends_when_asked_to() {
     let mut bus = Process::start(&["bus", "--listen", "127.0.0.1:0", "--log", "json"]);
     let line = bus.wait_for(r#"{"event":"listening","protocol":"slcan","#);
     let port = line.rsplit_once(':').unwrap().1.trim_end_matches("\"}");
@@ -224,7 +224,7 @@ fn a_bus_has_clients_and_ends_on_ctrl_c() {
         &format!("slcan:127.0.0.1:{port}"),
     ]);
     assert_eq!(read.stdout, "1008h:00h: \"Pump\"\n");
-    assert_eq!(node.interrupt(), 0);
+    assert_eq!(node.end("TERM"), 0);
     bus.wait_for("0 clients connected");
-    assert_eq!(bus.interrupt(), 0);
+    assert_eq!(bus.end("INT"), 0);
 }

@@ -93,10 +93,10 @@ impl Process {
         line.replacen(' ', ":", 1)
     }
 
-    /// Asks the process to end, as Ctrl-C does, and gives its exit code.
+    /// Asks the process to end by a signal (Ctrl-C sends `INT`), and gives its exit code.
     #[cfg(unix)]
-    pub(crate) fn interrupt(&mut self) -> i32 {
-        let kill = Command::new("kill").args(["-INT", &self.child.id().to_string()]).status();
+    pub(crate) fn end(&mut self, signal: &str) -> i32 {
+        let kill = Command::new("kill").args(["-s", signal, &self.child.id().to_string()]).status();
         assert!(kill.expect("kill can be started").success());
         let status = self.child.wait().expect("the process ends");
         if let Some(reader) = self.reader.take() {

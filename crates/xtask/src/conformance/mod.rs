@@ -38,24 +38,11 @@ struct Subject<'a> {
     contradicted: &'static [(&'static str, &'static str)],
 }
 
-/// The data sheet of the gateway.
-const GATEWAY: &str = "eds/CANopenGateway.eds";
-
 /// What the manual of the gateway does otherwise.
 const OF_GATEWAY: &[(&str, &str)] = &[
     ("HB-07", "writes 1016h, but every object is read-only (GW-OD-24)"),
     ("EMC-05", "writes 1016h to cause an EMCY message, but every object is read-only (GW-OD-24)"),
     ("INT-06", "writes 1016h to cause an EMCY message, but every object is read-only (GW-OD-24)"),
-    (
-        "SDO-27",
-        "reads what a configuration may lack: sub-objects of mappings and data exist where they are used (GW-EDS-16)",
-    ),
-    (
-        "SDO-28",
-        "wants the defaults of the data sheet, but the parameters decide (GW-HB-08, GW-CFG-14, GW-GAP-04)",
-    ),
-    ("SDO-29", "writes what a configuration may lack (GW-EDS-16)"),
-    ("PDO-01", "wants the COB-IDs of the data sheet, which are those of inactive PDOs (GW-OD-08, GW-CFG-14)"),
 ];
 
 /// Whether every node passes over every transport.
@@ -70,10 +57,10 @@ pub(crate) fn of_nodes() -> Outcome {
         Err(reason) => return Outcome::LeftOut(reason),
     };
     let (full, everything) = (folder.join("full.eds"), root().join(EVERYTHING));
-    let gateway = root().join(GATEWAY);
-    if let Err(reason) = node::build(&full) {
-        return Outcome::Failed(reason);
-    }
+    let gateway = match node::build(&full).and_then(|()| node::dcf_of_gateway()) {
+        Ok(dcf) => dcf,
+        Err(reason) => return Outcome::Failed(reason),
+    };
     let both = &[Transport::Socketcand, Transport::Slcan];
     // Only SLCAN carries the remote frames that some checks need.
     let only_slcan = &[Transport::Slcan];

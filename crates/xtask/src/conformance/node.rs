@@ -66,6 +66,16 @@ pub(super) fn build(eds: &Path) -> Result<(), String> {
     }
 }
 
+/// The DCF of the gateway that is judged: which entries its parameters leave, and what they hold.
+pub(super) fn dcf_of_gateway() -> Result<PathBuf, String> {
+    let dcf = root().join("target/CANopenGateway.dcf");
+    let mut write = command(binaries().join(Program::Gateway.binary()), &["config", "dcf", GATEWAY, "-o"]);
+    match run(write.arg(&dcf)) {
+        Outcome::Passed => Ok(dcf),
+        outcome => Err(format!("the gateway has no DCF ({outcome})")),
+    }
+}
+
 /// A running node, with the ports that its hub has taken; it ends with this value.
 pub(super) struct Node {
     pub(super) program: Program,

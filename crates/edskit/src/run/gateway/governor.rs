@@ -6,9 +6,9 @@ use edskit_devices::gateway::{Engine, Governor, Inputs, SignalType, Signals};
 /// A governor with an engine and the signals that a parameter file describes, so that the PDOs are those that `edskit
 /// config check` shows. Where the engine has no value for a signal, it is 0.
 #[derive(Debug, Default)]
-pub(super) struct DescribedEngine {
+pub(crate) struct DescribedEngine {
     pub(super) engine: Engine,
-    pub(super) signals: KnownSignals,
+    pub(crate) signals: KnownSignals,
 }
 
 impl Signals for DescribedEngine {

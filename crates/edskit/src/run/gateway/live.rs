@@ -20,7 +20,7 @@ pub(super) fn run(
 ) -> io::Result<Exit> {
     // The hub lives as long as the gateway.
     let (bus, hub) = connect(arguments, record).map_err(io::Error::other)?;
-    let stop = Stop::on_ctrl_c().map_err(io::Error::other)?;
+    let stop = Stop::on_request().map_err(io::Error::other)?;
     let mut session = Session::new(device, bus, None, steps);
     if arguments.log.is_some() || !streams.is_terminal {
         let log = Log::new(arguments.log.unwrap_or_default());

@@ -3,7 +3,7 @@
 use super::scenario::Action;
 use super::scenario::words::{UNITS, word_for};
 use edskit_devices::gateway::{
-    CanOpenError, Event, GatewayError, INITIALISATION_ATTEMPTS, Parameter, Period, Refusal,
+    CanOpenError, Event, GatewayError, INITIALISATION_ATTEMPTS, Parameter, Period,
 };
 use edskit_runtime::Microseconds;
 use serde::Serialize;
@@ -78,10 +78,7 @@ impl What {
             Event::InitialisationFailed { attempt, reason } => Self::InitialisationFailed {
                 attempt,
                 most: INITIALISATION_ATTEMPTS,
-                reason: match reason {
-                    Refusal::Structure(error) => error.to_string(),
-                    Refusal::Conflict(conflict) => conflict.to_string(),
-                },
+                reason: reason.to_string(),
             },
             Event::Error(error, is_present) => Self::gateway_error(error, is_present),
             Event::CanOpenError(error, is_present) => Self::can_open_error(error, is_present),

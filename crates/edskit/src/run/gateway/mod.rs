@@ -15,7 +15,7 @@ use crate::{Exit, Streams};
 use edskit_devices::gateway::{Engine, Gateway};
 use edskit_host::MemoryStorage;
 use governor::DescribedEngine;
-use session::LiveGateway;
+pub(crate) use session::LiveGateway;
 use std::io;
 
 pub(super) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
 }
 
 /// A gateway that has not got its supply yet.
-fn gateway(parameters: Parameters) -> LiveGateway {
+pub(crate) fn gateway(parameters: Parameters) -> LiveGateway {
     let governor = DescribedEngine { engine: Engine::new(), signals: parameters.signals };
     Gateway::new(parameters.configuration, governor, MemoryStorage::default())
 }

@@ -10,7 +10,7 @@ use edskit_types::CanId;
 use std::collections::VecDeque;
 
 /// The device.
-pub(super) type LiveGateway = Gateway<DescribedEngine, MemoryStorage>;
+pub(crate) type LiveGateway = Gateway<DescribedEngine, MemoryStorage>;
 
 /// The errors below the gateway's own, which are those of the engine and its sensors: 3000 to 3069.
 pub(super) const ENGINE_ERRORS: u128 = (1 << 70) - 1;
