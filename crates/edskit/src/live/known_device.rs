@@ -57,3 +57,20 @@ pub(crate) fn full_name(object: Object<'_>, entry: DictionaryEntry<'_>) -> Strin
     let name = object_name(object);
     if has_sub_objects { format!("{name}/{}", printable::line(&entry.name())) } else { name }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_dcf_calls_an_entry_goes_before_its_name() {
+        let text = "[OptionalObjects]\nSupportedObjects=1\n1=0x6000\n\n[6000]\nParameterName=Inputs\nObjectType=0x8\n\
+                    SubNumber=3\n\n[6000sub0]\nParameterName=Count\n\n[6000sub1]\nParameterName=Input 1\n\
+                    Denotation=Oil\tpressure\n\n[6000sub2]\nParameterName=Input 2\nDenotation=\n";
+        let device = KnownDevice { file: "a.dcf".to_owned(), sheet: Datasheet::parse(text.as_bytes()) };
+        let name = |sub_index| device.name(Index(0x6000), SubIndex(sub_index));
+        assert_eq!(name(1).as_deref(), Some("Oil\u{2409}pressure"), "and it is printable");
+        assert_eq!(name(2).as_deref(), Some("Inputs/Input 2"));
+        assert_eq!(name(3), None);
+    }
+}
