@@ -15,11 +15,8 @@ const PROCESS_DATA: Index = Index(0x2000);
 /// reads that writes them, and the device refuses it (GW-GAP-02).
 const ABOUT_RPDOS: &str = ";edskit: allow-file(PDO007) RPDOs write 2003h and 2004h, SDO requests cannot";
 
-/// What the data sheet says of all configurations, in its last comment.
-const COMMENT: &str = "Line3";
-
-/// What is true of one.
-const OWN_COMMENT: &str = "What the parameters of this device do not need is left out.";
+/// Instead of what the data sheet says of all configurations, in the third line of its comments.
+const COMMENT: &str = "What the parameters of this device do not need is left out.";
 
 /// The DCF of a started gateway, called `name`. `sheet` is the data sheet that edskit ships.
 ///
@@ -56,10 +53,8 @@ impl<'a> Text<'a> {
             self.add(section, &[format!("LastEDS={data_sheet}")]);
         }
         let comments = self.sheet.section(SectionKind::Comments);
-        if let Some(line) =
-            comments.and_then(|section| section.entries().find(|entry| entry.key_text() == COMMENT))
-        {
-            self.edits.push(Edit::replace(line.value_span(), OWN_COMMENT));
+        if let Some(line) = comments.and_then(|section| section.numbered(KeyName::Line, 3)) {
+            self.edits.push(Edit::replace(line.value_span(), COMMENT));
         }
     }
 

@@ -9,6 +9,7 @@ mod description;
 mod start;
 
 use crate::cli::ConfigDcfArguments;
+use crate::printable;
 use crate::run::gateway::gateway;
 use crate::{Exit, Streams};
 use description::describe;
@@ -48,5 +49,5 @@ pub(super) fn run(arguments: &ConfigDcfArguments, streams: &mut Streams) -> io::
 /// The name that the file has in its own text.
 fn file_name(path: &Path) -> String {
     let name = path.file_name().filter(|name| *name != "-.dcf");
-    name.map_or_else(|| "gateway.dcf".to_owned(), |name| name.to_string_lossy().into_owned())
+    name.map_or_else(|| "gateway.dcf".to_owned(), |name| printable::line(&name.to_string_lossy()))
 }
