@@ -8,6 +8,10 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::time::Duration;
 
+/// How many random frames the script sends in a second over SLCAN. python-can reads SLCAN byte by byte; of a faster flood
+/// it takes answers for current ones that are seconds old.
+const SLCAN_RATE: &str = "1000";
+
 #[derive(Clone, Copy)]
 pub(super) enum Transport {
     Socketcand,
@@ -80,7 +84,7 @@ impl Check<'_> {
                 command.args(["-i", "socketcand", "--host", "127.0.0.1", "-c", "can0", "--port", socketcand])
             }
             Transport::Slcan => command
-                .args(["-i", "slcan", "--bus", "{\"sleep_after_open\":0}", "-c"])
+                .args(["-i", "slcan", "--bus", "{\"sleep_after_open\":0}", "--fuzz-rate", SLCAN_RATE, "-c"])
                 .arg(format!("socket://127.0.0.1:{slcan}")),
         };
         if !self.left_out.is_empty() {
