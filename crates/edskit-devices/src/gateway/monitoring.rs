@@ -11,7 +11,6 @@ use edskit_runtime::{Instant, Microseconds};
 pub(super) struct Monitoring {
     /// The last arrival, or the begin.
     since: Instant,
-    has_arrived: bool,
     has_ever_arrived: bool,
     is_triggered: bool,
 }
@@ -25,17 +24,13 @@ impl Monitoring {
     /// Something has arrived.
     pub(super) fn arrived(&mut self, now: Instant) {
         self.since = now;
-        self.has_arrived = true;
         self.has_ever_arrived = true;
     }
 
     /// A main cycle passes; `None` switches the monitoring off.
     pub(super) fn main_cycle(&mut self, now: Instant, period: Option<Period>) {
-        if core::mem::take(&mut self.has_arrived) {
-            self.is_triggered = false;
-        }
         let is_over = |period: Period| now.since(self.since) >= Microseconds(period.micros().into());
-        self.is_triggered |= period.is_some_and(is_over);
+        self.is_triggered = period.is_some_and(is_over);
     }
 
     /// Whether the time is over.
