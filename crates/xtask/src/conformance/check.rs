@@ -126,15 +126,7 @@ impl Line {
         let (id, text) = rest.split_once(' ')?;
         Some(Self { verdict, id: id.to_owned(), text: text.trim().to_owned() })
     }
-}
 
-impl fmt::Display for Line {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?} {} {}", self.verdict, self.id, self.text)
-    }
-}
-
-impl Line {
     /// What stands in brackets behind the title.
     pub(super) fn reason(&self) -> &str {
         self.text.split_once(" [").map_or("", |(_, reason)| reason.trim_end_matches(']'))
@@ -144,6 +136,12 @@ impl Line {
     /// period of a node is tested to the microsecond in virtual time, so this says something about the machine.
     pub(super) fn is_jitter(&self) -> bool {
         self.verdict == Verdict::Warn && self.text.ends_with("(host jitter?)]")
+    }
+}
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?} {} {}", self.verdict, self.id, self.text)
     }
 }
 

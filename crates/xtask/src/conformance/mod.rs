@@ -21,9 +21,6 @@ use std::time::Duration;
 pub(crate) const VENV: &str = "target/conformance-venv";
 pub(crate) const REQUIREMENTS: &str = "tests/conformance/requirements.txt";
 
-/// Checks that may end with a warning, each with its reason: the device does what the check only tolerates on purpose.
-const EXPLAINED: &[(&str, &str)] = &[];
-
 /// The file that has every object that the check looks for.
 const EVERYTHING: &str = "tests/fixtures/nodes/Everything.eds";
 
@@ -138,10 +135,6 @@ fn judge(check: &Check<'_>) -> Result<usize, String> {
     }
     for line in of(Verdict::Warn).chain(of(Verdict::Fail)) {
         say(format_args!("{title}: {line}"));
-        if let Some((_, reason)) = explanation(&line.id).filter(|_| line.verdict == Verdict::Warn) {
-            say(format_args!("{title}: {} may warn: {reason}", line.id));
-            continue;
-        }
         if !passes_by_itself(check, &line.id) {
             return Err(format!("{title}: {line}"));
         }
@@ -190,8 +183,4 @@ fn passes_by_itself(check: &Check<'_>, id: &str) -> bool {
         say(format_args!("{}: {id} counts as passed: the mean period is right", check.title()));
     }
     has_jitter_only
-}
-
-fn explanation(id: &str) -> Option<&'static (&'static str, &'static str)> {
-    EXPLAINED.iter().find(|(explained, _)| *explained == id)
 }
