@@ -152,7 +152,10 @@ fn output_goes_to_a_file() {
     let folder = Folder::new("output");
     let target = format!("{}/report.xml", folder.path());
     let output = edskit(&["lint", FAULTY, "--format", "junit", "--output", &target]);
-    assert_eq!((output.exit, output.stdout.as_str()), (Exit::Findings, ""));
+    let summary = "6 errors, 3 warnings, 2 info in 1 of 1 file\n";
+    assert_eq!((output.exit, output.stdout.as_str()), (Exit::Findings, summary));
+    let quiet = edskit(&["lint", FAULTY, "--format", "junit", "--quiet", "--output", &target]);
+    assert_eq!((quiet.exit, quiet.stdout.as_str()), (Exit::Findings, ""));
     let written = String::from_utf8(folder.read("report.xml")).unwrap();
     assert_eq!(written, edskit(&["lint", FAULTY, "--format", "junit"]).stdout);
 }

@@ -6,6 +6,7 @@
 //!
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
+mod conflicts;
 mod context;
 mod described;
 mod edits;

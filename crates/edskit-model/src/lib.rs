@@ -22,7 +22,7 @@ pub use datasheet::{
     SubObject, Tool, Topology, TopologyNode, same_meaning,
 };
 pub use document::{Document, Encoding, Line, LineEnding, LineKind, Position, is_merge_marker};
-pub use format::format;
+pub use format::{Unformattable, format, try_format};
 pub use key::{Key, KeyGroup, KeyName, Shape};
 pub use section::{ModuleSection, SectionKind};
 pub use span::Span;
