@@ -18,6 +18,7 @@ mod linter;
 mod listing;
 mod missing;
 mod neighbours;
+mod numbering;
 mod odd_lines;
 mod pdos;
 mod peers;

@@ -186,11 +186,11 @@ fn next_scope(context: &Context<'_>, comment: usize) -> Vec<Span> {
         return vec![Span::new(start, lines[next].full_span().end)];
     }
     let mut scope = vec![Span::new(start, section_end(lines, next))];
-    let section = context.sheet.section_at(lines[next].start());
+    let section = context.sheet.section_at(lines[next].span().start);
     if let Some(SectionKind::Object(index)) = section.map(Section::kind) {
         let parts = context.sheet.sections().filter(|part| part.kind().index() == Some(index));
         scope.extend(parts.map(|part| {
-            Span::new(part.line().start(), section_end(lines, part.line_number()))
+            Span::new(part.line().span().start, section_end(lines, part.line_number()))
         }));
     }
     scope

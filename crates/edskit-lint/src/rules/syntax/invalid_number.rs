@@ -166,13 +166,21 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
         finding.help("fill in the number: this is the blank of a form");
         return;
     }
-    let Some(slip) = slips::of_number(raw) else {
+    let Some(mut slip) = slips::of_number(raw) else {
         finding.help("write a decimal number, or a hexadecimal one such as `0x1A`");
         return;
     };
+    // An index is hexadecimal, whatever else its digits may look like.
+    let is_index = matches!(entry.key().name, KeyName::Item | KeyName::DataType);
+    if is_index && let Some(other) = slip.other.take_if(|other| other.starts_with("0x")) {
+        let reason = "hexadecimal numbers begin with `0x`";
+        slip = slips::Slip { number: other, reason, certain: raw.len() == 4, other: None };
+    }
     let number = &slip.number;
     if raw.iter().all(u8::is_ascii_digit) {
         finding.help(format!("write `{number}`, or `0x{}` if that was meant", context.sheet.text(value)));
+    } else if let Some(other) = &slip.other {
+        finding.help(format!("write `{key}={number}`, or `{other}` if that was meant; {}", slip.reason));
     } else {
         finding.help(format!("write `{key}={number}`; {}", slip.reason));
     }
@@ -230,6 +238,23 @@ mod tests {
         ] {
             assert_eq!(value(data_type, fine), [""; 0], "{data_type} {fine}");
         }
+    }
+
+    #[test]
+    fn numbers_of_other_languages_are_read_as_they_were_meant() {
+        let help = |text: &str| {
+            let findings = lint(&INVALID_NUMBER, "a.eds", &Datasheet::parse(text.as_bytes()));
+            findings[0].help.clone().unwrap()
+        };
+        let value = |value: &str| format!("[2000]\nDataType=7\nDefaultValue={value}\n");
+        assert_eq!(
+            help(&value("1e3")),
+            "write `DefaultValue=1000`, or `0x1e3` if that was meant; integers have no exponent"
+        );
+        assert_eq!(fixed(&INVALID_NUMBER, &value("0o17")), value("15"));
+        assert_eq!(fixed(&INVALID_NUMBER, &value("1e3")), value("1e3"), "nobody can be sure");
+        let list = "[ManufacturerObjects]\n1=2E03\n";
+        assert_eq!(fixed(&INVALID_NUMBER, list), list.replace("2E03", "0x2E03"));
     }
 
     #[test]

@@ -51,7 +51,12 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for section in odd.filter(|section| !repeated.contains(&section.kind())) {
         let Some(name) = section.kind().canonical_name() else { continue };
         let written = section.name();
-        let what = if written.to_ascii_lowercase().contains("0x") { "`0x`" } else { "a leading zero" };
+        let lower = written.to_ascii_lowercase();
+        let what = match () {
+            () if lower.contains("0x") => "`0x`",
+            () if lower.ends_with('h') || lower.contains("hsub") => "the `h` of the manuals",
+            () => "a leading zero",
+        };
         report
             .add(section.name_span(), format!("the name `{written}` has {what}"))
             .help(format!("write `[{name}]`"))

@@ -32,7 +32,9 @@ mod space_before_equals;
 mod typed;
 mod unknown_key;
 mod unknown_section;
+mod unusual_case;
 pub(crate) mod unused_suppression;
+mod wrong_count;
 
 use crate::Rule;
 
@@ -66,4 +68,6 @@ pub(super) const RULES: &[&Rule] = &[
     &control_character::CONTROL_CHARACTER,
     &entry_not_in_column_1::ENTRY_NOT_IN_COLUMN_1,
     &unused_suppression::UNUSED_SUPPRESSION,
+    &wrong_count::WRONG_COUNT,
+    &unusual_case::UNUSUAL_CASE,
 ];

@@ -10,13 +10,29 @@ pub(super) struct Slip {
     pub(super) reason: &'static str,
     /// Whether no other number can have been meant.
     pub(super) certain: bool,
+    /// What it may be as well, where that is possible but less likely.
+    pub(super) other: Option<String>,
 }
 
 /// The number that `raw`, which is none, was meant to be, for spellings that are known from other languages and from
 /// slips of the hand.
 pub(super) fn of_number(raw: &[u8]) -> Option<Slip> {
+    let mut slip = guess(raw)?;
+    let digits = slip.number.trim_start_matches('0');
+    if digits.len() < slip.number.len() && slip.number.len() > 1 && is_decimal(&slip.number) {
+        // What is proposed must not be the next slip: a leading 0 makes a number octal.
+        slip.number = if digits.is_empty() { "0".to_owned() } else { digits.to_owned() };
+        slip.certain &= slip.number.len() == 1;
+    }
+    Some(slip)
+}
+
+fn guess(raw: &[u8]) -> Option<Slip> {
     let text = std::str::from_utf8(raw).ok()?;
-    let slip = |number: String, reason, certain| Some(Slip { number, reason, certain });
+    let slip = |number: String, reason, certain| Some(Slip { number, reason, certain, other: None });
+    let either = |number: String, reason, other: String| {
+        Some(Slip { number, reason, certain: false, other: Some(other) })
+    };
     let lower = text.to_ascii_lowercase();
     if let Some(digits) = lower.strip_prefix("0x0x").filter(|digits| is_hex(digits)) {
         return slip(format!("0x{}", tail(text, digits)), "the prefix stands twice", true);
@@ -38,6 +54,15 @@ pub(super) fn of_number(raw: &[u8]) -> Option<Slip> {
     if let Some(value) = lower.strip_prefix("0b").and_then(|digits| u64::from_str_radix(digits, 2).ok()) {
         return slip(format!("0x{value:X}"), "there are no binary numbers", true);
     }
+    if let Some(value) = lower.strip_prefix("0o").and_then(|digits| u64::from_str_radix(digits, 8).ok()) {
+        return slip(value.to_string(), "octal numbers of other languages are not known here", true);
+    }
+    if let Some(value) = with_exponent(&lower) {
+        return match is_hex(text) {
+            true => either(value, "integers have no exponent", format!("0x{text}")),
+            false => slip(value, "integers have no exponent", true),
+        };
+    }
     if let Some(number) = cleaned(text) {
         return slip(number, "only digits belong to a number", true);
     }
@@ -46,7 +71,11 @@ pub(super) fn of_number(raw: &[u8]) -> Option<Slip> {
         && !fraction.is_empty()
         && fraction.bytes().all(|byte| byte.is_ascii_digit())
     {
-        let is_zero = fraction.bytes().all(|byte| byte == b'0') && fraction.len() < 3;
+        // Three digits behind the mark are a group of thousands more often than a fraction.
+        if fraction.len() == 3 && is_decimal(whole) && whole.len() <= 3 && !whole.starts_with('0') {
+            return either(format!("{whole}{fraction}"), "only digits belong to a number", whole.to_owned());
+        }
+        let is_zero = fraction.bytes().all(|byte| byte == b'0');
         return slip(whole.to_owned(), "an integer has no fraction", is_zero);
     }
     if let Some(digits) = text.strip_prefix('0').filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()))
@@ -66,6 +95,23 @@ pub(super) fn of_number(raw: &[u8]) -> Option<Slip> {
     None
 }
 
+/// The integer that a number with an exponent is: `1e3`, `2.5e3`.
+fn with_exponent(text: &str) -> Option<String> {
+    let (mantissa, exponent) = text.split_once('e')?;
+    let exponent: usize = exponent.strip_prefix('+').unwrap_or(exponent).parse().ok()?;
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = format!("{whole}{fraction}");
+    if whole.is_empty() || !is_decimal(&digits) || fraction.len() > exponent || exponent > 19 {
+        return None;
+    }
+    let number = format!("{digits}{}", "0".repeat(exponent - fraction.len()));
+    number.parse::<u64>().ok().map(|value| value.to_string())
+}
+
+fn is_decimal(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
 /// The number without quotes, blanks, digit separators, a mark at its end, a C suffix; with digits for letters that
 /// look like them.
 fn cleaned(text: &str) -> Option<String> {
@@ -76,7 +122,12 @@ fn cleaned(text: &str) -> Option<String> {
     if is_number(&dense) && !is_sum {
         return Some(dense);
     }
-    let digits: String = dense.chars().map(|c| if matches!(c, 'o' | 'O') { '0' } else { c }).collect();
+    let digit = |letter| match letter {
+        'o' | 'O' => '0',
+        'l' | 'I' | '|' => '1',
+        _ => letter,
+    };
+    let digits: String = dense.chars().map(digit).collect();
     (digits != dense && is_number(&digits)).then_some(digits)
 }
 
@@ -120,7 +171,17 @@ mod tests {
             ("Ox1O", "0x10", true),
             ("1.0", "1", true),
             ("1,5", "1", false),
-            ("1.000", "1", false),
+            ("1.000", "1000", false),
+            ("12,500", "12500", false),
+            ("0.500", "0", false),
+            ("0o17", "15", true),
+            ("0O777", "511", true),
+            ("1e3", "1000", false),
+            ("2.5E3", "2500", true),
+            ("1e+3", "1000", true),
+            ("\"010\"", "10", false),
+            ("O17", "17", false),
+            ("0xlA00", "0x1A00", true),
             ("08", "8", true),
             ("0189", "189", false),
             ("100 ms", "100", false),
@@ -141,13 +202,24 @@ mod tests {
     }
 
     #[test]
+    fn the_likelier_reading_comes_first() {
+        let other = |text: &str| of_number(text.as_bytes()).and_then(|slip| slip.other);
+        assert_eq!(other("1e3").as_deref(), Some("0x1e3"));
+        assert_eq!(other("1.000").as_deref(), Some("1"));
+        assert_eq!((other("2.5e3"), other("1_000"), other("1A00")), (None, None, None));
+    }
+
+    #[test]
     fn what_is_proposed_is_a_number() {
         let letters = ["", "0", "8", "a", "h", "x", "b", "O", "$", "#", ".", ",", ";", " ", "\"", "u", "-"];
         for place in 0..letters.len().pow(4) {
             let letter = |position| letters[place / letters.len().pow(position) % letters.len()];
             let text: String = (0..4).map(letter).collect();
             if let Some(slip) = of_number(text.as_bytes()).filter(|_| !is_number(&text)) {
-                assert!(is_number(&slip.number), "{} for {text}", slip.number);
+                let number = &slip.number;
+                assert!(is_number(number), "{number} for {text}");
+                let looks_octal = number.len() > 1 && number.starts_with('0') && is_decimal(number);
+                assert!(!looks_octal, "{number} for {text} would be the next slip");
             }
         }
     }
