@@ -69,14 +69,16 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let end = cut_off(context, &lacking);
     for (position, (item, index)) in lacking.into_iter().enumerate() {
         let section = format!("`[{index:X}]`");
+        let end = end.filter(|_| position == 0);
+        let early = if end.is_some() { ": the file ends early" } else { "" };
         let finding = report.add(
             item.value_span(context.document()),
-            format!("{index} is listed, but has no section {section}"),
+            format!("{index} is listed, but has no section {section}{early}"),
         );
-        match end.filter(|_| position == 0) {
+        match end {
             Some(last) => {
                 finding
-                    .label(last.span(), "the last section: the file ends early")
+                    .label(last.span(), "the last section")
                     .help("the file is cut off: everything that is listed behind its last section is missing; get it whole from its source");
             }
             None => {

@@ -91,12 +91,12 @@ fn check(context: &Context<'_>, report: &mut Report) {
             more => format!(", and {more} times more in this file"),
         };
         let message = format!(
-            "`{open}{}{close}` is `{open}{usual}{close}` in CiA 306{more}; python-canopen does not find it otherwise",
+            "`{open}{}{close}` is `{open}{usual}{close}` in CiA 306{more}; readers that heed case do not find it",
             context.sheet.text(first)
         );
         report
             .add(first, message)
-            .help(format!("write `{open}{usual}{close}`"))
+            .help(format!("write `{open}{usual}{close}`; python-canopen is such a reader"))
             .safe_fix("Write the names as CiA 306 does", edits);
     }
 }
@@ -178,11 +178,11 @@ mod tests {
         assert_eq!(
             findings(&UNUSUAL_CASE, text),
             [
-                "2:1 info: `EDSversion` is `EDSVersion` in CiA 306; python-canopen does not find it otherwise",
-                "4:1 info: `parameterName` is `ParameterName` in CiA 306, and once more in this file; python-canopen does not find it otherwise",
-                "10:1 info: `line1` is `Line1` in CiA 306; python-canopen does not find it otherwise",
-                "12:1 info: `dummy0001` is `Dummy0001` in CiA 306; python-canopen does not find it otherwise",
-                "14:1 info: `supportedObjects` is `SupportedObjects` in CiA 306; python-canopen does not find it otherwise",
+                "2:1 info: `EDSversion` is `EDSVersion` in CiA 306; readers that heed case do not find it",
+                "4:1 info: `parameterName` is `ParameterName` in CiA 306, and once more in this file; readers that heed case do not find it",
+                "10:1 info: `line1` is `Line1` in CiA 306; readers that heed case do not find it",
+                "12:1 info: `dummy0001` is `Dummy0001` in CiA 306; readers that heed case do not find it",
+                "14:1 info: `supportedObjects` is `SupportedObjects` in CiA 306; readers that heed case do not find it",
             ]
         );
         let mended = text
