@@ -324,9 +324,10 @@ fn is_process_data(section: &Section) -> bool {
 /// An object whose sub-objects are named by decimal numbers; `None` where there are too few, or a gap.
 fn in_decimal(base: &Base, index: u16) -> Option<Mutant> {
     let subs = base.sub_objects(index);
-    let highest = base.sub_object(index, 0)?.number("DefaultValue")?;
+    let count = base.sub_object(index, 0)?;
+    let counts = ["DefaultValue", "HighLimit"].map(|key| count.number(key));
     let is_whole = subs.iter().enumerate().all(|(due, sub)| sub.sub_index().map(usize::from) == Some(due));
-    if subs.len() <= 10 || !is_whole || usize::try_from(highest).ok()? + 1 != subs.len() {
+    if subs.len() <= 10 || !is_whole || !counts.contains(&i64::try_from(subs.len() - 1).ok()) {
         return None;
     }
     let named = subs.iter().enumerate().skip(10).fold(Mutant::of(base), |mutant, (number, sub)| {

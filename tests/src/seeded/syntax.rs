@@ -119,8 +119,6 @@ fn lines() -> Vec<Defect> {
             joined.collect()
         })
         .with_consequence("COM013", SWALLOWED)
-        .with_consequence("PDO001", SWALLOWED)
-        .with_consequence("PDO004", SWALLOWED)
         .with_consequence("PDO018", SWALLOWED)
         .with_consequence("PDO026", SWALLOWED)
         .with_consequence("VAL002", SWALLOWED),

@@ -47,11 +47,12 @@ pub(crate) fn decimal_names(object: Object<'_>) -> Option<Vec<(u8, SubObject<'_>
     let is_counted_on = names.iter().enumerate().all(|(due, (number, _))| usize::from(*number) == due);
     let (highest, _) = names.last()?;
     let count = sub0(object)?;
-    let counted = [count.parameter_value(), count.default_value()].into_iter().flatten();
+    // A count that changes while the device runs has its largest value as a limit.
+    let mut counted = [count.parameter_value(), count.default_value(), count.high_limit()].into_iter().flatten();
     let is_meant = |field: Field<'_, Value<'_>>| {
         matches!(field.value, Ok(Value::Integer(number)) if number.value() == i128::from(*highest))
     };
-    (is_counted_on && counted.into_iter().any(is_meant)).then_some(names)
+    (is_counted_on && counted.any(is_meant)).then_some(names)
 }
 
 /// The number at the end of a sub-object's name, read in decimal.

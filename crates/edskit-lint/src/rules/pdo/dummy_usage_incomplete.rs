@@ -54,14 +54,15 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let Some(section) = context.sheet.section(SectionKind::DummyUsage) else { return };
     let entry = |number: u16| section.numbered(KeyName::Dummy, number);
     let absent: Vec<u16> = (1..=7).filter(|&number| entry(number).is_none()).collect();
-    let empty = (1..=7).filter_map(entry).filter(|entry| entry.is_empty());
-    let mut edits: Vec<Edit> = empty.map(|entry| Edit::insert(entry.value_span().start, "0")).collect();
+    let empty: Vec<_> = (1..=7).filter_map(entry).filter(|entry| entry.is_empty()).collect();
+    let mut edits: Vec<Edit> =
+        empty.iter().map(|entry| Edit::insert(entry.value_span().start, "0")).collect();
     if absent.is_empty() && edits.is_empty() {
         return;
     }
     let mut names: Vec<String> = absent.iter().map(|number| format!("`Dummy{number:04X}`")).collect();
     if names.is_empty() {
-        names = (1..=7).filter_map(entry).filter(|entry| entry.is_empty()).map(|entry| format!("`{}`", entry.key_text())).collect();
+        names = empty.iter().map(|entry| format!("`{}`", entry.key_text())).collect();
     }
     let message = format!(
         "`[{}]` does not say what {} {}; python-canopen refuses the whole file without all seven",
@@ -80,8 +81,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
         let texts: String = edits.iter().map(|edit| edit.replacement.as_str()).collect();
         edits = vec![Edit::insert(edits[0].span.start, texts)];
     }
-    report
-        .add(section.span(), message)
+    let finding = report.add(section.span(), message);
+    for entry in empty {
+        finding.label(entry.span(), "empty, which counts as missing");
+    }
+    finding
         .help("write 0 for what cannot be mapped as a dummy, which is what its absence means")
         .safe_fix("Write 0 for the missing ones", edits);
 }

@@ -8,8 +8,8 @@ rule! {
     ///
     /// ## What it does
     /// Reports an entry of 0 among those that sub-index 00h of a mapping parameter counts, and one that is described
-    /// there without a value. It is a warning where the PDO is not in use, and where all of them are 0 or none has a
-    /// value: then sub-index 00h may stand for the room for entries.
+    /// there without a value. It is a warning where there is no value, where the PDO is not in use, and where all of
+    /// them are 0: then sub-index 00h may stand for the room for entries.
     ///
     /// ## Why is this bad
     /// The entry names no object. Devices refuse such a mapping, and tools stop decoding the PDO there.
@@ -105,8 +105,8 @@ fn without_value(pdo: &DescribedPdo<'_>, report: &mut Report) {
         let keys = [KeyName::ParameterValue, KeyName::DefaultValue];
         keys.into_iter().any(|key| sub.section().filled(key).is_some())
     };
-    let counted = || mapping.sub_objects().filter(|sub| (1..=number).contains(&sub.sub_index().0));
-    let mut empty = counted().filter(|sub| !has_value(sub));
+    let counted = mapping.sub_objects().filter(|sub| (1..=number).contains(&sub.sub_index().0));
+    let mut empty = counted.filter(|sub| !has_value(sub));
     let Some(first) = empty.next() else { return };
     let last = empty.next_back().map_or(first.sub_index(), |sub| sub.sub_index());
     let which = if first.sub_index() == last {
@@ -115,9 +115,8 @@ fn without_value(pdo: &DescribedPdo<'_>, report: &mut Report) {
         format!("entries {} to {} of {pdo} have", first.sub_index().0, last.0)
     };
     let finding = report.add(first.span(), format!("{which} no value, but the mapping has {number}"));
-    if !counted().any(|sub| has_value(&sub)) || pdo.is_valid() != Some(true) {
-        finding.severity(Severity::Warning);
-    }
+    // The device may have a value that the file does not know.
+    finding.severity(Severity::Warning);
     finding.label(count.span(), "the number of mapped entries");
     let used = first.sub_index().0 - 1;
     finding.help(format!("write {used} there, or name an object here"));
@@ -148,7 +147,7 @@ mod tests {
         }
         assert_eq!(
             found("0x205", "2", &["0x20000010", ""]),
-            ["14:1 error: entry 2 of RPDO1 has no value, but the mapping has 2"]
+            ["14:1 warning: entry 2 of RPDO1 has no value, but the mapping has 2"]
         );
         assert!(found("0x205", "1", &["0x20000010", ""]).is_empty());
         let transmit = "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\n";
