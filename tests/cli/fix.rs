@@ -72,7 +72,11 @@ fn no_fix_changes_a_conflict() {
         assert_eq!(folder.read(name), stray.as_bytes());
         let check = edskit(&["fmt", "--check", &path]);
         assert_eq!(check.exit, Exit::Failed);
-        assert!(check.stderr.contains(&format!("{name}:")) && check.stderr.contains("a conflict"), "{}", check.stderr);
+        assert!(
+            check.stderr.contains(&format!("{name}:")) && check.stderr.contains("a conflict"),
+            "{}",
+            check.stderr
+        );
     }
 }
 
@@ -88,7 +92,9 @@ fn fixing_is_done_in_one_run_and_tells_what_is_left_out() {
         );
     }
     let path = folder.write("a.eds", &text);
-    let fix = || edskit(&["lint", "--fix", "--isolated", "--select", "SYN012,VAL002,OBJ", "--format", "json", &path]);
+    let fix = || {
+        edskit(&["lint", "--fix", "--isolated", "--select", "SYN012,VAL002,OBJ", "--format", "json", &path])
+    };
     let first = fix();
     let once = folder.read("a.eds");
     let again = fix();
@@ -104,10 +110,17 @@ fn fixing_is_done_in_one_run_and_tells_what_is_left_out() {
 fn a_fix_that_brings_up_worse_is_left_out_and_told() {
     let folder = Folder::new("fix-left-out");
     // Whoever mends the name of the second section makes it one that stands twice.
-    let path = folder.write("a.eds", "[2000]\nParameterName=a\n[2000sub1]\n#ParameterName=b\nParameterName=c\nParameterName=d\n");
+    let path = folder.write(
+        "a.eds",
+        "[2000]\nParameterName=a\n[2000sub1]\n#ParameterName=b\nParameterName=c\nParameterName=d\n",
+    );
     for format in ["human", "concise", "json", "sarif", "github", "junit"] {
         let output = edskit(&["lint", "--fix", "--unsafe-fixes", "--isolated", "--format", format, &path]);
-        assert!(!output.stdout.contains("safe fix") && !output.stdout.contains("\"safe\""), "{}", output.stdout);
+        assert!(
+            !output.stdout.contains("safe fix") && !output.stdout.contains("\"safe\""),
+            "{}",
+            output.stdout
+        );
     }
 }
 
@@ -137,7 +150,9 @@ fn git_takes_the_patch() {
         ("no-end.eds", TEXT.trim_end().as_bytes().to_vec()),
     ] {
         let path = folder.write(name, &text);
-        for command in [&["lint", "--diff", "--isolated", "--select", "SYN009,OBJ005"][..], &["fmt", "--diff"]] {
+        for command in
+            [&["lint", "--diff", "--isolated", "--select", "SYN009,OBJ005"][..], &["fmt", "--diff"]]
+        {
             folder.write(name, &text);
             let patch = edskit_tests::edskit_bytes(&[command, &[&path]].concat());
             // The tests run in a folder of their own, so the path is whole there.
@@ -172,8 +187,13 @@ fn replace(bytes: &[u8], old: &[u8], new: &[u8]) -> Vec<u8> {
 fn a_patch_stands_alone_on_standard_output() {
     let folder = Folder::new("fix-alone");
     let path = folder.write("a.eds", TEXT);
-    let output = edskit(&["lint", "--diff", "--isolated", "--format", "concise", "--select", "SYN009,OBJ013", &path]);
+    let output =
+        edskit(&["lint", "--diff", "--isolated", "--format", "concise", "--select", "SYN009,OBJ013", &path]);
     assert!(output.stdout.starts_with("--- a/"), "{}", output.stdout);
     assert!(output.stdout.lines().all(|line| line.starts_with([' ', '+', '-', '@'])), "{}", output.stdout);
-    assert!(output.stderr.contains("error[OBJ013]") && output.stderr.contains("1 would be fixed"), "{}", output.stderr);
+    assert!(
+        output.stderr.contains("error[OBJ013]") && output.stderr.contains("1 would be fixed"),
+        "{}",
+        output.stderr
+    );
 }

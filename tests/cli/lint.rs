@@ -199,7 +199,8 @@ fn a_verdict_follows_the_threshold_in_junit_too() {
 #[test]
 fn statistics_add_up_to_the_summary() {
     let Some(_) = edskit_tests::corpus("statistics") else { return };
-    let rows = edskit(&["lint", "--isolated", "--statistics", "--format", "json", "../../shared/corpus"]).stdout;
+    let rows =
+        edskit(&["lint", "--isolated", "--statistics", "--format", "json", "../../shared/corpus"]).stdout;
     let rows: Vec<serde_json::Value> = serde_json::from_str(&rows).unwrap();
     let sum = |severity: &str| -> u64 {
         let rows = rows.iter().filter(|row| row["severity"] == severity);
@@ -245,7 +246,11 @@ fn globs_that_no_shell_has_expanded() {
         let more: &[&str] = if command == "generate" { &["--output", folder.path()] } else { &[] };
         let output = edskit(&[&[command, &pattern], more].concat());
         assert_eq!(output.exit, Exit::Failed, "{command}");
-        assert!(output.stderr.contains("there is no file that this glob means"), "{command}: {}", output.stderr);
+        assert!(
+            output.stderr.contains("there is no file that this glob means"),
+            "{command}: {}",
+            output.stderr
+        );
     }
     let one = format!("{}/eds/a*.eds", folder.path());
     assert_eq!(edskit(&["show", &one]).exit, Exit::Clean);

@@ -57,7 +57,8 @@ fn comments_silence_what_they_say() {
     for text in fences(&page("configuration.md"), "ini") {
         let folder = Folder::new("page-comments");
         let path = folder.write("a.eds", &text);
-        let output = edskit(&["lint", "--isolated", "--format", "concise", "--select", "OBJ016,SYN027", &path]);
+        let output =
+            edskit(&["lint", "--isolated", "--format", "concise", "--select", "OBJ016,SYN027", &path]);
         assert_eq!(output.exit, Exit::Clean, "{}", output.stdout);
         let without = text.lines().filter(|line| !line.starts_with(';')).collect::<Vec<_>>().join("\n");
         let path = folder.write("b.eds", without);
@@ -73,7 +74,8 @@ fn commands_can_be_copied() {
         for line in page.lines() {
             let Some(command) = command(line) else { continue };
             commands += 1;
-            let arguments: Vec<String> = command.split_whitespace().map(|word| placed(&folder, word)).collect();
+            let arguments: Vec<String> =
+                command.split_whitespace().map(|word| placed(&folder, word)).collect();
             let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
             let output = edskit(&arguments);
             assert!(output.exit != Exit::Failed, "{command}: {}", output.stderr);

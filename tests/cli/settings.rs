@@ -139,7 +139,10 @@ fn a_partial_run_costs_a_baseline_nothing() {
     let whole = folder.read("known.json");
     let clean = || {
         let output = with_baseline(&baseline, &[&all]);
-        assert_eq!((output.exit, output.stdout.as_str()), (Exit::Clean, "2 files, no findings, 4 known from the baseline\n"));
+        assert_eq!(
+            (output.exit, output.stdout.as_str()),
+            (Exit::Clean, "2 files, no findings, 4 known from the baseline\n")
+        );
     };
     // One file of two.
     let output = with_baseline(&baseline, &[&one, "--update-baseline"]);
@@ -227,12 +230,19 @@ fn what_is_excluded_is_left_alone() {
     assert_eq!((output.exit, output.stdout.as_str()), (Exit::Clean, "0 files, no findings\n"));
     let named = edskit(&["lint", "--format", "concise", "--quiet", &theirs, &own]);
     assert_eq!(named.stdout.lines().count(), 1);
-    assert!(named.stderr.contains("theirs.eds: left out, because `exclude` of edskit.toml names it"), "{}", named.stderr);
+    assert!(
+        named.stderr.contains("theirs.eds: left out, because `exclude` of edskit.toml names it"),
+        "{}",
+        named.stderr
+    );
     let before = folder.read("vendor/deep/theirs.eds");
     let messy = folder.write("vendor/messy.eds", "[1000]\nAccessType = RO\n");
     assert_eq!(edskit(&["fmt", "--check", &below]).exit, Exit::Clean);
     assert_eq!(edskit(&["fmt", &messy]).exit, Exit::Clean);
-    assert_eq!((folder.read("vendor/deep/theirs.eds"), folder.read("vendor/messy.eds")), (before, b"[1000]\nAccessType = RO\n".to_vec()));
+    assert_eq!(
+        (folder.read("vendor/deep/theirs.eds"), folder.read("vendor/messy.eds")),
+        (before, b"[1000]\nAccessType = RO\n".to_vec())
+    );
     assert_eq!(codes(&folder, &["--isolated", "--select", "SYN013"]).len(), 4);
 }
 
@@ -242,7 +252,11 @@ fn the_threshold_and_the_baseline_may_stand_in_the_settings() {
     folder.write("edskit.toml", "select = [\"SYN013\", \"OBJ013\"]\nfail-on = \"error\"\n[severity]\nSYN013 = \"warning\"\nOBJ013 = \"info\"\n");
     let file = folder.write("deep/a.eds", BAD);
     assert_eq!(edskit(&["lint", &file]).exit, Exit::Clean);
-    assert_eq!(edskit(&["lint", &file, "--fail-on", "warning"]).exit, Exit::Findings, "the command line comes first");
+    assert_eq!(
+        edskit(&["lint", &file, "--fail-on", "warning"]).exit,
+        Exit::Findings,
+        "the command line comes first"
+    );
     folder.write("edskit.toml", "select = [\"SYN013\"]\nbaseline = \"old.json\"\n");
     assert_eq!(edskit(&["lint", &file]).exit, Exit::Failed, "there is none yet");
     assert_eq!(edskit(&["lint", &file, "--update-baseline"]).exit, Exit::Clean);

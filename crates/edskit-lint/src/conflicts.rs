@@ -89,12 +89,7 @@ impl Conflicts {
     /// What is found whichever side is taken, and outside of all conflicts; both come in the order of the file. A fix
     /// stays if it is the same for both sides and touches no conflict. Where it is not even clear which lines belong to
     /// one, no fix does.
-    pub(crate) fn common(
-        &self,
-        document: &Document,
-        ours: Vec<Finding>,
-        theirs: &[Finding],
-    ) -> Vec<Finding> {
+    pub(crate) fn common(&self, document: &Document, ours: Vec<Finding>, theirs: &[Finding]) -> Vec<Finding> {
         let mut common = Vec::new();
         let mut from = 0;
         for mut finding in ours {
@@ -102,9 +97,8 @@ impl Conflicts {
                 from += 1;
             }
             let mut alike = theirs[from..].iter().take_while(|other| other.place() == finding.place());
-            let is_same = |other: &&Finding| {
-                (other.severity, &other.message) == (finding.severity, &finding.message)
-            };
+            let is_same =
+                |other: &&Finding| (other.severity, &other.message) == (finding.severity, &finding.message);
             let Some(other) = alike.find(is_same) else { continue };
             if self.touches(document, finding.span()) && !self.begins_one(document, finding.span()) {
                 continue;
@@ -121,15 +115,14 @@ impl Conflicts {
 
     /// Whether a place is the first marker of a conflict, where the conflict itself is reported.
     fn begins_one(&self, document: &Document, span: Span) -> bool {
-        self.whole.iter().any(|conflict| conflict.span(document).start == span.start)
+        self.whole.binary_search_by_key(&span.start, |conflict| conflict.span(document).start).is_ok()
     }
 
     /// Whether a place is in a conflict, or directly at its edge.
     fn touches(&self, document: &Document, span: Span) -> bool {
-        self.whole.iter().any(|conflict| {
-            let whole = conflict.span(document);
-            span.start < whole.end && whole.start < span.end.max(span.start + 1)
-        })
+        let end = span.end.max(span.start + 1);
+        let begun = self.whole.partition_point(|conflict| conflict.span(document).start < end);
+        self.whole[..begun].last().is_some_and(|conflict| span.start < conflict.span(document).end)
     }
 }
 
@@ -195,12 +188,16 @@ mod tests {
 
     #[test]
     fn a_side_has_its_own_lines_at_their_place() {
-        let text = "x=1\r\n<<<<<<< HEAD\r\na=1\r\n||||||| base\r\na=0\r\n=======\r\na=2\r\n>>>>>>> b\r\ny=1\r\n";
+        let text =
+            "x=1\r\n<<<<<<< HEAD\r\na=1\r\n||||||| base\r\na=0\r\n=======\r\na=2\r\n>>>>>>> b\r\ny=1\r\n";
         let document = Document::parse(text.as_bytes());
         let sides = Conflicts::of(&document).sides(&document);
         let shown = sides.map(|sheet| String::from_utf8(sheet.document().to_bytes().to_vec()).unwrap());
         assert!(shown.iter().all(|side| side.len() == text.len()));
         let lines = shown.map(|side| side.split_whitespace().map(str::to_owned).collect::<Vec<_>>());
-        assert_eq!(lines, [["x=1", "a=1", "y=1"], ["x=1", "a=2", "y=1"]].map(|side| side.map(str::to_owned).to_vec()));
+        assert_eq!(
+            lines,
+            [["x=1", "a=1", "y=1"], ["x=1", "a=2", "y=1"]].map(|side| side.map(str::to_owned).to_vec())
+        );
     }
 }

@@ -267,9 +267,8 @@ fn is_harmless(fix: &Fix, before: &State, after: &State) -> bool {
 fn worse_places(before: &State, after: &State) -> Places {
     let (there, here) = (before.counts_by_place(), after.counts_by_place());
     let none = Counts::new();
-    let worse = here.into_iter().filter(|(place, counts)| {
-        !has_no_more(counts, there.get(place).unwrap_or(&none))
-    });
+    let worse =
+        here.into_iter().filter(|(place, counts)| !has_no_more(counts, there.get(place).unwrap_or(&none)));
     worse.map(|(place, _)| place).collect()
 }
 

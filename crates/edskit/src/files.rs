@@ -91,7 +91,11 @@ pub(crate) fn one(argument: OsString) -> Result<PathBuf, String> {
     let mut files = globs::expand(&path)?;
     match files.len() {
         1 => Ok(files.remove(0)),
-        count => Err(format!("{} files are meant by this, and one is wanted: {} is the first", count, files[0].display())),
+        count => Err(format!(
+            "{} files are meant by this, and one is wanted: {} is the first",
+            count,
+            files[0].display()
+        )),
     }
 }
 

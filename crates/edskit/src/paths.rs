@@ -13,7 +13,8 @@ pub(crate) fn whole(path: &Path) -> PathBuf {
 /// The whole path of a folder, without links where it exists; the empty path is the current one.
 pub(crate) fn folder(path: &Path) -> PathBuf {
     let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-    path.canonicalize().unwrap_or_else(|_| without_dots(&absolute(path).unwrap_or_else(|_| path.to_path_buf())))
+    path.canonicalize()
+        .unwrap_or_else(|_| without_dots(&absolute(path).unwrap_or_else(|_| path.to_path_buf())))
 }
 
 /// A whole path as it is written from a folder, with `..` where it is not below it.
@@ -63,9 +64,11 @@ mod tests {
 
     #[test]
     fn a_path_is_written_from_a_folder() {
-        for (from, to, written) in
-            [("/a/b", "/a/b/c.eds", "c.eds"), ("/a/b", "/a/c/d.eds", "../c/d.eds"), ("/a", "/a/b/c.eds", "b/c.eds")]
-        {
+        for (from, to, written) in [
+            ("/a/b", "/a/b/c.eds", "c.eds"),
+            ("/a/b", "/a/c/d.eds", "../c/d.eds"),
+            ("/a", "/a/b/c.eds", "b/c.eds"),
+        ] {
             assert_eq!(text(&relative(Path::new(from), Path::new(to))), written);
         }
     }

@@ -34,7 +34,8 @@ fn counts() -> Vec<Defect> {
         }),
         mapping("PDO013", "a counted entry without a value", |base, map| {
             let entry = map.entries.last()?;
-            let section = base.sections_where(|section| section.entries.iter().any(|own| own.line == entry.line));
+            let section =
+                base.sections_where(|section| section.entries.iter().any(|own| own.line == entry.line));
             Some(Mutant::of(base).delete(entry.line).expect(section.first()?.header))
         }),
         mapping("PDO012", "an entry behind the counted ones", |base, map| {
@@ -54,8 +55,13 @@ fn dummy_usage() -> Vec<Defect> {
     vec![
         missing("PDO027", "DummyUsage without the BOOLEAN", "Dummy0001", is_usage),
         missing("PDO027", "DummyUsage without the INTEGER32", "Dummy0004", is_usage),
-        value_of("PDO027", "DummyUsage with an empty entry", "Dummy0002", is_usage, |_, _| Some(String::new()))
-            .by_label(),
+        value_of("PDO027", "DummyUsage in hexadecimal", "Dummy0003", is_usage, |_, old| {
+            Some(format!("0x{old}"))
+        }),
+        value_of("PDO027", "DummyUsage with an empty entry", "Dummy0002", is_usage, |_, _| {
+            Some(String::new())
+        })
+        .by_label(),
     ]
 }
 

@@ -89,7 +89,8 @@ fn lines() -> Vec<Defect> {
             let entries = base.sections().iter().filter_map(|section| section.entries.last());
             let conflict = entries.map(|entry| {
                 let behind = entry.line + 1;
-                let mutant = Mutant::of(base).insert(entry.line, "<<<<<<< HEAD").insert_too(behind, "=======");
+                let mutant =
+                    Mutant::of(base).insert(entry.line, "<<<<<<< HEAD").insert_too(behind, "=======");
                 let mutant = mutant.insert_too(behind, format!("{}={}1", entry.key, entry.value));
                 mutant.insert_too(behind, ">>>>>>> theirs")
             });
@@ -146,7 +147,12 @@ fn comments() -> Vec<Defect> {
             entries.map(|entry| Mutant::of(base).rewrite(entry.line, "#PDOMapping=0")).collect()
         }),
         line_before("SYN027", "a suppression without a finding", |_| true, ";edskit: allow(SYN013) copied"),
-        line_before("SYN027", "a suppression in capitals without a finding", |_| true, ";EDSKIT: allow(SYN013)"),
+        line_before(
+            "SYN027",
+            "a suppression in capitals without a finding",
+            |_| true,
+            ";EDSKIT: allow(SYN013)",
+        ),
         line_before("SYN027", "a suppression without its colon", |_| true, ";edskit allow(SYN013) copied"),
         line_before("SYN027", "a suppression of an unknown rule", |_| true, ";edskit: allow(OBJ999) copied"),
         value_of(
@@ -254,7 +260,10 @@ fn names() -> Vec<Defect> {
         header(
             "SYN023",
             "a letter in the place of a digit of a mapping parameter",
-            |section| section.is_object() && (section.is_within(0x1600, 0x17FF) || section.is_within(0x1A00, 0x1BFF)),
+            |section| {
+                section.is_object()
+                    && (section.is_within(0x1600, 0x17FF) || section.is_within(0x1A00, 0x1BFF))
+            },
             |section| format!("[l{}]", &section.name[1..]),
         ),
         header(

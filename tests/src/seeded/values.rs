@@ -84,7 +84,8 @@ fn limits() -> Vec<Defect> {
         })
         .by_label(),
         Defect::new("VAL003", "limits that no reading of a signed type has", |base| {
-            let sections = base.sections_where(|section| has_limits(section) && section.number("DefaultValue") >= Some(0));
+            let sections = base
+                .sections_where(|section| has_limits(section) && section.number("DefaultValue") >= Some(0));
             let all = sections.into_iter().filter_map(|section| {
                 let bits = [2, 3, 4].into_iter().position(|data_type| section.is_type(data_type))?;
                 let most = ["0xFF", "0xFFFF", "0xFFFFFFFF"][bits];

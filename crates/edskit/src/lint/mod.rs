@@ -81,8 +81,7 @@ fn try_run(arguments: &LintArguments, streams: &mut Streams) -> Result<Exit, Sto
     }
     let jobs = jobs(found.inputs, arguments, streams)?;
     let baselines = Baselines::read(&jobs, arguments, streams)?;
-    let mut summary =
-        Summary { failures: found.failures, only_looks: arguments.diff, ..Summary::default() };
+    let mut summary = Summary { failures: found.failures, only_looks: arguments.diff, ..Summary::default() };
     for failure in &summary.failures {
         streams.complain(format_args!("{failure}"));
     }
@@ -103,6 +102,13 @@ fn try_run(arguments: &LintArguments, streams: &mut Streams) -> Result<Exit, Sto
     })?;
     sink.write(streams, |out| format.end(&summary, out))?;
     sink.close(streams)?;
+    // The formats for machines have no summary, where people would read it.
+    let has_summary = !arguments.quiet
+        && (arguments.output.is_some()
+            || matches!(arguments.format, LintFormat::Human | LintFormat::Concise));
+    if let Some(left_out) = summary.left_out().filter(|_| !has_summary) {
+        streams.complain(format_args!("{left_out}"));
+    }
     if arguments.output.is_some() && !arguments.quiet {
         let out = if arguments.diff { &mut streams.stderr } else { &mut streams.stdout };
         writeln!(out, "{summary}")?;
@@ -168,7 +174,11 @@ impl Baselines {
             if arguments.prune_baseline {
                 let gone = baseline.prune();
                 baseline.write()?;
-                let files = if gone == 1 { "1 file that is gone is" } else { &format!("{gone} files that are gone are") };
+                let files = if gone == 1 {
+                    "1 file that is gone is"
+                } else {
+                    &format!("{gone} files that are gone are")
+                };
                 streams.complain(format_args!("{}: {files} taken out", path.display()));
             }
             baselines.0.insert(path.clone(), baseline);
@@ -200,7 +210,9 @@ fn update(
     lint_all(jobs, &Baselines::default(), arguments, style, streams, |file, _| {
         summary.add(&file);
         let job = jobs_left.next();
-        let Some((job, path)) = job.and_then(|job| Some((job, job.baseline.as_ref()?))) else { return Ok(()) };
+        let Some((job, path)) = job.and_then(|job| Some((job, job.baseline.as_ref()?))) else {
+            return Ok(());
+        };
         // A file that cannot be read was not looked at.
         if let (None, Some(baseline)) = (file.failure(), updated.0.get_mut(path)) {
             baseline.replace(&file.name, file.fingerprints(), job.linter.rules());

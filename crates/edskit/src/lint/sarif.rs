@@ -23,7 +23,10 @@ impl Format for Sarif {
             "informationUri": env!("CARGO_PKG_REPOSITORY"),
             "rules": rules::ALL.iter().map(|rule| descriptor(rule)).collect::<Vec<_>>(),
         });
-        write!(out, "{{\"$schema\":\"{SCHEMA}\",\"version\":\"2.1.0\",\"runs\":[{{\"tool\":{{\"driver\":{driver}}},")?;
+        write!(
+            out,
+            "{{\"$schema\":\"{SCHEMA}\",\"version\":\"2.1.0\",\"runs\":[{{\"tool\":{{\"driver\":{driver}}},"
+        )?;
         write!(out, "\"columnKind\":\"unicodeCodePoints\",\"results\":[")
     }
 

@@ -206,7 +206,8 @@ mod tests {
 
     #[test]
     fn who_listens_does_not_send() {
-        let consumer = |value: &str| format!("[1028]\nObjectType=8\n[1028sub1]\nDataType=7\nDefaultValue={value}\n");
+        let consumer =
+            |value: &str| format!("[1028]\nObjectType=8\n[1028sub1]\nDataType=7\nDefaultValue={value}\n");
         let own = "[1014]\nDataType=7\nDefaultValue=$NODEID+0x80\n";
         assert_eq!(found(&(own.to_owned() + &consumer("$NODEID+0x80"))), [""; 0]);
         assert_eq!(

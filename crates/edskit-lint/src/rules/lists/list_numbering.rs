@@ -82,8 +82,11 @@ fn wrong_key(items: &[Item]) -> Option<(&Item, u16)> {
 fn report_wrong_key(context: &Context<'_>, item: &Item, due: u16, report: &mut Report) {
     let document = context.document();
     let key = item.key_span(document);
-    let message =
-        format!("item {} of `[{}]` stands in the place of item {due}", context.sheet.text(key), item.list.name());
+    let message = format!(
+        "item {} of `[{}]` stands in the place of item {due}",
+        context.sheet.text(key),
+        item.list.name()
+    );
     let finding = report.add(key, message);
     finding.here(format!("{due} is due here")).help(format!("write `{due}` for the key"));
     let items = context.listing().items_of(item.list);
@@ -231,11 +234,14 @@ mod tests {
         for (old, new) in [("12=", "99="), ("1=", "77="), ("5=", "0=")] {
             let wrong = text.replacen(&format!("\n{old}"), &format!("\n{new}"), 1);
             let found = findings(&LIST_NUMBERING, &wrong);
-            let (line, key) = (2 + old.trim_end_matches('=').parse::<usize>().unwrap(), new.trim_end_matches('='));
+            let (line, key) =
+                (2 + old.trim_end_matches('=').parse::<usize>().unwrap(), new.trim_end_matches('='));
             let due = line - 2;
             assert_eq!(
                 found,
-                [format!("{line}:1 error: item {key} of `[OptionalObjects]` stands in the place of item {due}")]
+                [format!(
+                    "{line}:1 error: item {key} of `[OptionalObjects]` stands in the place of item {due}"
+                )]
             );
             assert_eq!(fixed(&LIST_NUMBERING, &wrong), text);
         }

@@ -82,7 +82,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
                     .help("the file is cut off: everything that is listed behind its last section is missing; get it whole from its source");
             }
             None => {
-                finding.help(format!("describe the object in a section {section}, or take it out of the list"));
+                finding
+                    .help(format!("describe the object in a section {section}, or take it out of the list"));
             }
         }
     }
@@ -95,13 +96,11 @@ fn cut_off<'a>(context: &Context<'a>, lacking: &[(&Item, Index)]) -> Option<Sect
     let index = last.kind().index()?;
     let items = context.listing().items();
     let place = items.iter().position(|item| item.index == Some(index))?;
-    let behind_in_lists = items[place + 1..].iter().filter(|item| item.index.is_some()).count();
-    let behind_by_index = items.iter().filter(|item| item.index.is_some_and(|other| other > index)).count();
-    let in_lists = lacking.iter().filter(|(item, _)| {
-        items[place + 1..].iter().any(|behind| behind.index == item.index)
-    });
-    let is_tail = behind_in_lists == lacking.len() && in_lists.count() == lacking.len()
-        || behind_by_index == lacking.len() && lacking.iter().all(|(_, missing)| *missing > index);
+    let is_lost = |item: &Item| item.index.is_none_or(|index| !context.listing().is_described(index));
+    let is_end_of_lists = items[place + 1..].len() == lacking.len() && items[place + 1..].iter().all(is_lost);
+    let behind = items.iter().filter(|item| item.index.is_some_and(|other| other > index)).count();
+    let is_end_of_indices = behind == lacking.len() && lacking.iter().all(|(_, missing)| *missing > index);
+    let is_tail = is_end_of_lists || is_end_of_indices;
     (lacking.len() > 1 && is_tail).then_some(last)
 }
 
@@ -145,11 +144,16 @@ mod tests {
             let findings = crate::testing::lint(&LISTED_WITHOUT_SECTION, "a.eds", &sheet);
             findings.iter().map(|finding| finding.help.as_deref().unwrap().contains("cut off")).collect()
         };
-        let lists = "[OptionalObjects]\n1=0x1017\n2=0x6000\n3=0x6001\n[ManufacturerObjects]\n1=0x2000\n2=0x2001\n";
+        let lists =
+            "[OptionalObjects]\n1=0x1017\n2=0x6000\n3=0x6001\n[ManufacturerObjects]\n1=0x2000\n2=0x2001\n";
         assert_eq!(help(&format!("{lists}[1017]\n[6000]\n[6000sub1]\n")), [true, false, false]);
         assert_eq!(help(&format!("{lists}[1017]\n[2000]\n[2001]\n")), [true, false], "sorted by index");
         assert_eq!(help(&format!("{lists}[1017]\n[6001]\n")), [false; 3], "6000h is missing before the end");
-        assert_eq!(help(&format!("{lists}[1017]\n[6000]\n[6001]\n[2000]\n")), [false], "one may be a mistake");
+        assert_eq!(
+            help(&format!("{lists}[1017]\n[6000]\n[6001]\n[2000]\n")),
+            [false],
+            "one may be a mistake"
+        );
     }
 
     #[test]

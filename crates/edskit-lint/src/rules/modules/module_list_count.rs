@@ -82,7 +82,10 @@ fn check_list(section: Section<'_>, report: &mut Report) {
             );
     } else if let Some((key, due)) = wrong_key(section) {
         report
-            .add(key, format!("item {} of `[{name}]` stands in the place of item {due}", section.sheet().text(key)))
+            .add(
+                key,
+                format!("item {} of `[{name}]` stands in the place of item {due}", section.sheet().text(key)),
+            )
             .help(format!("write `{due}` for the key"))
             .unsafe_fix(format!("Write {due}"), vec![Edit::replace(key, due.to_string())]);
     } else if let Some((missing, (next, place))) =

@@ -106,7 +106,8 @@ mod tests {
     use crate::testing::{findings, fixed};
 
     fn object(index: &str, code: u8, count: &str, names: &[&str]) -> String {
-        let mut text = format!("[{index}]\nObjectType={code}\n[{index}sub0]\nDataType=5\nDefaultValue={count}\n");
+        let mut text =
+            format!("[{index}]\nObjectType={code}\n[{index}sub0]\nDataType=5\nDefaultValue={count}\n");
         for name in names {
             text += &format!("[{index}sub{name}]\n");
         }
@@ -129,7 +130,11 @@ mod tests {
             let mended = text.replace("sub10", "subA").replace("sub11", "subB");
             assert_eq!(fixed(&DECIMAL_SUB_INDEX, &text), mended);
             for count in ["17", "0x11", "9", "4", "", "x"] {
-                assert_eq!(findings(&DECIMAL_SUB_INDEX, &object(index, code, count, &eleven)), [""; 0], "{count}");
+                assert_eq!(
+                    findings(&DECIMAL_SUB_INDEX, &object(index, code, count, &eleven)),
+                    [""; 0],
+                    "{count}"
+                );
             }
         }
         let names: Vec<String> = (1..=21).map(|number: u8| number.to_string()).collect();

@@ -48,10 +48,9 @@ pub(crate) fn decimal_names(object: Object<'_>) -> Option<Vec<(u8, SubObject<'_>
     let (highest, _) = names.last()?;
     let count = sub0(object)?;
     // A count that changes while the device runs has its largest value as a limit.
-    let mut counted = [count.parameter_value(), count.default_value(), count.high_limit()].into_iter().flatten();
-    let is_meant = |field: Field<'_, Value<'_>>| {
-        matches!(field.value, Ok(Value::Integer(number)) if number.value() == i128::from(*highest))
-    };
+    let mut counted =
+        [count.parameter_value(), count.default_value(), count.high_limit()].into_iter().flatten();
+    let is_meant = |field: Field<'_, Value<'_>>| matches!(field.value, Ok(Value::Integer(number)) if number.value() == i128::from(*highest));
     (is_counted_on && counted.any(is_meant)).then_some(names)
 }
 

@@ -200,11 +200,15 @@ mod tests {
 
     #[test]
     fn limits_that_would_exclude_the_value_are_mended_with_it() {
-        let text = object("2000", 9, "AccessType=ro\nLowLimit=0x01\nDefaultValue=3\nHighLimit=0x03", &["1", "5"]);
+        let text =
+            object("2000", 9, "AccessType=ro\nLowLimit=0x01\nDefaultValue=3\nHighLimit=0x03", &["1", "5"]);
         let mended = text.replace("DefaultValue=3\nHighLimit=0x03", "DefaultValue=5\nHighLimit=0x05");
         assert_eq!(fixed(&SUB0_WRONG_VALUE, &text), mended);
         let text = object("2000", 9, "AccessType=ro\nDefaultValue=9\nLowLimit=4", &["1", "2"]);
-        assert_eq!(fixed(&SUB0_WRONG_VALUE, &text), text.replace('9', "2").replace("Type=2", "Type=9").replace("=4", "=2"));
+        assert_eq!(
+            fixed(&SUB0_WRONG_VALUE, &text),
+            text.replace('9', "2").replace("Type=2", "Type=9").replace("=4", "=2")
+        );
     }
 
     #[test]

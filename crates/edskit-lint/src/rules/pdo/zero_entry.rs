@@ -97,7 +97,9 @@ fn check(context: &Context<'_>, report: &mut Report) {
 
 /// Reports the counted entries that are described and have no value.
 fn without_value(pdo: &DescribedPdo<'_>, report: &mut Report) {
-    let (Some(mapping), Some(count), Some(number)) = (pdo.mapping, pdo.count, pdo.mapped_count()) else { return };
+    let (Some(mapping), Some(count), Some(number)) = (pdo.mapping, pdo.count, pdo.mapped_count()) else {
+        return;
+    };
     if mapping.compact_count() > 0 {
         return;
     }
@@ -150,7 +152,8 @@ mod tests {
             ["14:1 warning: entry 2 of RPDO1 has no value, but the mapping has 2"]
         );
         assert!(found("0x205", "1", &["0x20000010", ""]).is_empty());
-        let transmit = "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\n";
+        let transmit =
+            "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\n";
         assert_eq!(
             findings(&ZERO_ENTRY, transmit),
             ["6:1 warning: entry 1 of TPDO1 has no value, but the mapping has 1"]

@@ -139,7 +139,8 @@ pub(crate) fn report_conflicts(document: &Document, conflicts: &Conflicts, repor
     for conflict in conflicts.whole() {
         let mut markers = conflict.markers().map(place);
         let Some(first) = markers.next() else { continue };
-        let finding = report.add(first, "a version control system left a conflict here: two texts stand in the place of one");
+        let finding = report
+            .add(first, "a version control system left a conflict here: two texts stand in the place of one");
         finding.here("one text begins here");
         let mut rest: Vec<Span> = markers.collect();
         let end = rest.pop();
@@ -194,7 +195,9 @@ mod tests {
     #[test]
     fn a_conflict_is_one_finding() {
         for base in ["", "||||||| base\n[1002]\nhello\n"] {
-            let text = format!("[FileInfo]\n<<<<<<< HEAD\n[1000]\nhello\n{base}=======\n[1001]\n=5\n>>>>>>> a=b\nthere\n");
+            let text = format!(
+                "[FileInfo]\n<<<<<<< HEAD\n[1000]\nhello\n{base}=======\n[1001]\n=5\n>>>>>>> a=b\nthere\n"
+            );
             let found = findings(&LINE_WITHOUT_EQUALS, &text);
             assert_eq!(found.len(), 2, "{found:?}");
             assert_eq!(

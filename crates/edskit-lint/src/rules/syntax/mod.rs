@@ -32,8 +32,8 @@ mod space_before_equals;
 mod typed;
 mod unknown_key;
 mod unknown_section;
-mod unusual_case;
 pub(crate) mod unused_suppression;
+mod unusual_case;
 mod wrong_count;
 
 use crate::Rule;

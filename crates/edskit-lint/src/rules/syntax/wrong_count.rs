@@ -109,11 +109,20 @@ fn check_section(section: Section<'_>, counted: &Counted, report: &mut Report) {
         count => crate::wording::count(count, noun),
     };
     let Some(entry) = section.filled(counted.count) else {
-        // A section without anything needs no count.
-        if !listed.is_empty() {
-            report
-                .add(section.span(), format!("`[{name}]` has {}, but no `{key}`", has(listed.len())))
-                .help(format!("add `{key}={}`", listed.len()));
+        // A section without anything needs no count, but python-canopen asks for that of comments.
+        if !listed.is_empty() || counted.count == KeyName::Lines {
+            let line = format!("{key}={}", listed.len());
+            let finding = report.add(
+                section.span(),
+                format!("`[{name}]` has no `{key}`; there {} {}", are(listed.len()), has(listed.len())),
+            );
+            finding.help(format!("add `{line}`"));
+            let is_whole = listed.last().is_none_or(|last| usize::from(*last) == listed.len());
+            if is_whole && section.entry(counted.count).is_none() {
+                let ending = section.sheet().document().line_ending().as_str();
+                let place = section.line().span().end;
+                finding.safe_fix("Add the count", vec![Edit::insert(place, format!("{ending}{line}"))]);
+            }
         }
         return;
     };
@@ -136,7 +145,8 @@ fn check_section(section: Section<'_>, counted: &Counted, report: &mut Report) {
     finding.help(format!("write `{key}={number}`"));
     // Where a number is left out, something may have got lost.
     if listed.last().is_none_or(|last| usize::from(*last) == listed.len()) {
-        finding.unsafe_fix("Write the number of what is there", vec![Edit::replace(entry.value_span(), number)]);
+        finding
+            .unsafe_fix("Write the number of what is there", vec![Edit::replace(entry.value_span(), number)]);
     }
 }
 
@@ -220,10 +230,21 @@ mod tests {
             assert_eq!(found(&text), "2:7 warning: `Lines` is 0x05, but there are 3 lines");
             assert_eq!(fixed(&WRONG_COUNT, &text), text.replace("0x05", "0x03"));
         }
-        assert_eq!(found(&format!("[Comments]\nLines=1\n{lines}")), "2:7 warning: `Lines` is 1, but there are 3 lines");
-        assert_eq!(found(&format!("[Comments]\n{lines}")), "1:1 warning: `[Comments]` has 3 lines, but no `Lines`");
+        assert_eq!(
+            found(&format!("[Comments]\nLines=1\n{lines}")),
+            "2:7 warning: `Lines` is 1, but there are 3 lines"
+        );
+        assert_eq!(
+            found(&format!("[Comments]\n{lines}")),
+            "1:1 warning: `[Comments]` has no `Lines`; there are 3 lines"
+        );
         assert_eq!(found("[Comments]\nLines=1\n"), "2:7 warning: `Lines` is 1, but there is no line");
-        assert_eq!(found("[Comments]\n") + &found("[Comments]\nLines=0\n") + &found("[Comments]\nLines=x\nLine1=a\n"), "");
+        assert_eq!(found("[Comments]\n"), "1:1 warning: `[Comments]` has no `Lines`; there is no line");
+        assert_eq!(fixed(&WRONG_COUNT, "[Comments]\nLine1=a\n"), "[Comments]\nLines=1\nLine1=a\n");
+        assert_eq!(
+            found("[Tools]\n") + &found("[Comments]\nLines=0\n") + &found("[Comments]\nLines=x\nLine1=a\n"),
+            ""
+        );
     }
 
     #[test]
@@ -243,8 +264,14 @@ mod tests {
     #[test]
     fn tools_and_segments() {
         assert_eq!(found("[Tools]\nItems=1\n[Tool1]\nName=a\n"), "");
-        assert_eq!(found("[Tools]\nItems=2\n[Tool1]\nName=a\n"), "2:7 warning: `Items` is 2, but there is 1 tool");
-        assert_eq!(found("[Tools]\nItems=1\n[Tool1]\n[Tool2]\n"), "2:7 warning: `Items` is 1, but there are 2 tools");
+        assert_eq!(
+            found("[Tools]\nItems=2\n[Tool1]\nName=a\n"),
+            "2:7 warning: `Items` is 2, but there is 1 tool"
+        );
+        assert_eq!(
+            found("[Tools]\nItems=1\n[Tool1]\n[Tool2]\n"),
+            "2:7 warning: `Items` is 1, but there are 2 tools"
+        );
         assert_eq!(found("[Tools]\nItems=1\n[Tool2]\n"), "1:1 warning: there is a tool 2, but no tool 1");
         let segments = "Type1=5\nDir1=ro\nRange1=0xA000-0xA00F\nPPOffset1=0\n";
         assert_eq!(found(&format!("[DynamicChannels]\nNrOfSeg=1\n{segments}")), "");

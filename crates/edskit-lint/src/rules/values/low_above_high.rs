@@ -76,9 +76,11 @@ pub(super) fn have_no_reading(
         let (Some(lows), Some(highs)) = (readings(low), readings(high)) else { return false };
         fits(low, data_type, node_id)
             && fits(high, data_type, node_id)
-            && lows.all().into_iter().zip(highs.all()).all(|(low, high)| {
-                low > high || !is_in_type(low) || !is_in_type(high)
-            })
+            && lows
+                .all()
+                .into_iter()
+                .zip(highs.all())
+                .all(|(low, high)| low > high || !is_in_type(low) || !is_in_type(high))
     })
 }
 
@@ -188,15 +190,22 @@ mod tests {
 
     #[test]
     fn limits_that_fit_no_reading_are_wrong() {
-        for (data_type, bits, name) in
-            [(2, 8, "INTEGER8"), (3, 16, "INTEGER16"), (0x10, 24, "INTEGER24"), (4, 32, "INTEGER32"), (0x15, 64, "INTEGER64")]
-        {
+        for (data_type, bits, name) in [
+            (2, 8, "INTEGER8"),
+            (3, 16, "INTEGER16"),
+            (0x10, 24, "INTEGER24"),
+            (4, 32, "INTEGER32"),
+            (0x15, 64, "INTEGER64"),
+        ] {
             let all = format!("0x{}", "F".repeat(bits / 4));
             assert_eq!(
                 limits(data_type, "0x00", &all),
-                format!("4:11 warning: `LowLimit` `0x00` and `HighLimit` `{all}` are no range of {name}, however they are read")
+                format!(
+                    "4:11 warning: `LowLimit` `0x00` and `HighLimit` `{all}` are no range of {name}, however they are read"
+                )
             );
-            let (half, less) = (format!("0x8{}", "0".repeat(bits / 4 - 1)), format!("0x7{}", "F".repeat(bits / 4 - 1)));
+            let (half, less) =
+                (format!("0x8{}", "0".repeat(bits / 4 - 1)), format!("0x7{}", "F".repeat(bits / 4 - 1)));
             assert_eq!(limits(data_type, &half, &less), "");
             assert_eq!(limits(data_type, &half, &all), "", "both are negative");
         }
