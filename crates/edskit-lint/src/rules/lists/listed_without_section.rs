@@ -96,8 +96,9 @@ fn cut_off<'a>(context: &Context<'a>, lacking: &[(&Item, Index)]) -> Option<Sect
     let index = last.kind().index()?;
     let items = context.listing().items();
     let place = items.iter().position(|item| item.index == Some(index))?;
-    let is_lost = |item: &Item| item.index.is_none_or(|index| !context.listing().is_described(index));
-    let is_end_of_lists = items[place + 1..].len() == lacking.len() && items[place + 1..].iter().all(is_lost);
+    let mut tail = items[place + 1..].iter().filter_map(|item| item.index);
+    let is_end_of_lists =
+        tail.clone().count() == lacking.len() && tail.all(|index| !context.listing().is_described(index));
     let behind = items.iter().filter(|item| item.index.is_some_and(|other| other > index)).count();
     let is_end_of_indices = behind == lacking.len() && lacking.iter().all(|(_, missing)| *missing > index);
     let is_tail = is_end_of_lists || is_end_of_indices;
