@@ -4,6 +4,7 @@ mod globs;
 
 use crate::{Streams, paths};
 use edskit_model::Datasheet;
+use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read};
@@ -63,9 +64,17 @@ pub(crate) fn find(paths: &[PathBuf], streams: &mut Streams) -> io::Result<Input
             add(path, &mut found);
         }
     }
-    let mut seen = std::collections::HashSet::new();
+    let mut seen = HashSet::new();
+    // Most files lie together, and to ask for the folder of each takes its time.
+    let mut folders: HashMap<PathBuf, PathBuf> = HashMap::new();
     found.inputs.retain(|input| match input {
-        Input::File(path) => seen.insert(paths::whole(path)),
+        Input::File(path) => match (path.parent(), path.file_name()) {
+            (Some(parent), Some(name)) => {
+                let folder = folders.entry(parent.to_path_buf()).or_insert_with(|| paths::folder(parent));
+                seen.insert(folder.join(name))
+            }
+            _ => seen.insert(paths::whole(path)),
+        },
         Input::Stdin(_) => true,
     });
     Ok(found)

@@ -214,12 +214,19 @@ fn globs(patterns: &[Spanned<String>]) -> Result<GlobSet, (Range<usize>, String)
 pub(crate) struct Finder {
     /// For each folder that was looked at the settings that hold in it.
     folders: HashMap<PathBuf, Option<Arc<Settings>>>,
+    /// The same for folders as they are typed.
+    typed: HashMap<PathBuf, Option<Arc<Settings>>>,
 }
 
 impl Finder {
     /// The settings that hold for files in `folder`: those of the nearest `edskit.toml` upwards.
     pub(crate) fn find(&mut self, folder: &Path) -> Result<Option<Arc<Settings>>, SettingsError> {
-        self.find_upwards(paths::folder(folder))
+        if let Some(known) = self.typed.get(folder) {
+            return Ok(known.clone());
+        }
+        let found = self.find_upwards(paths::folder(folder))?;
+        self.typed.insert(folder.to_path_buf(), found.clone());
+        Ok(found)
     }
 
     /// The same for a file.

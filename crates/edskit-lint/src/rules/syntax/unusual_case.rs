@@ -78,11 +78,13 @@ fn check(context: &Context<'_>, report: &mut Report) {
         for entry in section.entries() {
             let name = entry.key().name;
             let spelling = name.spelling().as_bytes();
-            let written = entry.key_span();
-            let text = written.slice(source);
-            if spelling.is_empty() || text.starts_with(spelling) {
+            // Nearly every key is as it should be, and this is faster than to find its end.
+            let line = &source[entry.line().span().start as usize..];
+            if spelling.is_empty() || line.starts_with(spelling) {
                 continue;
             }
+            let written = entry.key_span();
+            let text = written.slice(source);
             let mut is_alone = || {
                 let count = |mut counts: HashMap<Key, usize>, key| {
                     *counts.entry(key).or_default() += 1;
@@ -148,7 +150,10 @@ fn usual_key(name: KeyName, text: &[u8]) -> Option<String> {
 /// The name of a section as CiA 306 writes it, where only its case differs. Its numbers stay as they are.
 fn usual_name(section: Section<'_>, source: &[u8]) -> Option<String> {
     let kind = section.kind();
-    if matches!(kind, SectionKind::Object(_) | SectionKind::Unknown) {
+    let header = &source[section.line().span().start as usize..];
+    let is_usual =
+        matches!(header.get(5..8), Some(b"sub" | b"Sub")) && matches!(kind, SectionKind::SubObject(..));
+    if is_usual || matches!(kind, SectionKind::Object(_) | SectionKind::Unknown) {
         return None;
     }
     let name = section.name_span().slice(source);

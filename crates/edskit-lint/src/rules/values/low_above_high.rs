@@ -1,7 +1,7 @@
 use super::reading::{Readings, Scalar, fits, node_ids, shown};
 use crate::rule::rule;
 use crate::{Context, Report, Severity, Variable};
-use edskit_model::{Field, Value};
+use edskit_model::{Field, Radix, Value};
 use edskit_types::{DataType, NodeId};
 
 rule! {
@@ -69,6 +69,10 @@ pub(super) fn have_no_reading(
     data_type: DataType,
     node_ids: [NodeId; 2],
 ) -> bool {
+    let is_hex = |value| matches!(value, Value::Integer(number) if number.radix() == Radix::Hexadecimal);
+    if !is_hex(low) && !is_hex(high) {
+        return false;
+    }
     let Some((least, most)) = data_type.range().filter(|_| data_type.is_signed()) else { return false };
     let is_in_type = |value: Scalar| Scalar::Integer(least) <= value && value <= Scalar::Integer(most);
     node_ids.into_iter().all(|node_id| {
