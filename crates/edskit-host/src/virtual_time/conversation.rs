@@ -31,13 +31,13 @@ impl Conversation {
         self.waits_until
     }
 
-    /// Takes what the client says.
+    /// Takes what the client says, for [`Conversation::heed`].
     pub(super) fn feed(&mut self, bytes: &[u8]) {
         self.input.feed(bytes);
-        self.heed();
     }
 
-    /// Ends the wait where a frame has arrived or its time is over.
+    /// Ends the wait where a frame has arrived or its time is over. What the client has said behind the wait is left for
+    /// [`Conversation::heed`], so that it makes no difference whether it has come already.
     pub(super) fn look(&mut self) {
         let Some(end) = self.waits_until else { return };
         let now = self.participant.now();
@@ -53,7 +53,6 @@ impl Conversation {
             }
             Reply::Now(now).write(&mut self.output);
             self.waits_until = None;
-            self.heed();
         }
     }
 
@@ -62,8 +61,9 @@ impl Conversation {
         std::mem::take(&mut self.output)
     }
 
-    /// Does what the client has asked for, up to the next wait.
-    fn heed(&mut self) {
+    /// Does what the client has asked for, up to the next wait. Clients are heeded in one order, and each until it waits:
+    /// then what several send at the same time goes over the bus in the same order every time.
+    pub(super) fn heed(&mut self) {
         while self.waits_until.is_none() {
             match self.input.next() {
                 None => return,
@@ -101,6 +101,11 @@ mod tests {
         VirtualBus::new(Bitrate::Kbit1000)
     }
 
+    fn say(conversation: &mut Conversation, lines: &str) {
+        conversation.feed(lines.as_bytes());
+        conversation.heed();
+    }
+
     fn said(conversation: &mut Conversation) -> String {
         String::from_utf8(conversation.take_output()).unwrap()
     }
@@ -110,6 +115,7 @@ mod tests {
         loop {
             for client in clients.iter_mut() {
                 client.look();
+                client.heed();
             }
             let Some(end) = clients.iter().map(|client| client.waits_until).min().flatten() else { return };
             bus.step(end);
@@ -128,17 +134,17 @@ mod tests {
         let bus = bus();
         let (mut client, mut device) = (Conversation::new(&bus), bus.attach());
         client.take_output();
-        client.feed(b"wait 500\n");
+        say(&mut client, "wait 500\n");
         assert_eq!(client.waits_until(), Some(Instant(500)));
         pass(&bus, &mut [&mut client]);
         assert_eq!(said(&mut client), "now 500\n");
 
         device.send(&Frame::new(CanId::standard(0x705).unwrap(), &[0])).unwrap();
         device.send(&Frame::remote(CanId::extended(0x705).unwrap(), 3)).unwrap();
-        client.feed(b"wait 500\n");
+        say(&mut client, "wait 500\n");
         pass(&bus, &mut [&mut client]);
         assert_eq!(said(&mut client), "frame 568 00000705 R3\nnow 568\n", "the smaller identifier wins");
-        client.feed(b"wait 500\nwait 5\n");
+        say(&mut client, "wait 500\nwait 5\n");
         pass(&bus, &mut [&mut client]);
         assert_eq!(said(&mut client), "frame 626 705 00\nnow 626\nnow 631\n");
     }
@@ -147,20 +153,20 @@ mod tests {
     fn frames_are_sent_at_the_present_time_and_do_not_come_back() {
         let bus = bus();
         let (mut first, mut second) = (Conversation::new(&bus), Conversation::new(&bus));
-        first.feed(b"wait 100\n");
-        second.feed(b"wait 300\n");
+        say(&mut first, "wait 100\n");
+        say(&mut second, "wait 300\n");
         pass(&bus, &mut [&mut first, &mut second]);
         first.take_output();
         second.take_output();
         assert_eq!(bus.now(), Instant(100), "the first one thinks, so the time stands");
 
-        first.feed(b"send 181 0102\nsend 00000181 R2\nwait 1000\n");
+        say(&mut first, "send 181 0102\nsend 00000181 R2\nwait 1000\n");
         pass(&bus, &mut [&mut first, &mut second]);
         assert_eq!(said(&mut second), "frame 169 00000181 R2\nnow 169\n");
-        second.feed(b"wait 1000\n");
+        say(&mut second, "wait 1000\n");
         pass(&bus, &mut [&mut first, &mut second]);
         assert_eq!(said(&mut second), "frame 236 181 0102\nnow 236\n");
-        second.feed(b"wait 2000\n");
+        say(&mut second, "wait 2000\n");
         pass(&bus, &mut [&mut first, &mut second]);
         assert_eq!((said(&mut first).as_str(), said(&mut second).as_str()), ("now 1100\n", ""));
     }
@@ -171,18 +177,18 @@ mod tests {
         let (mut client, mut device) = (Conversation::new(&bus), bus.attach());
         client.take_output();
         for number in 0..66 {
-            client.feed(format!("send 181 {number:02X}\n").as_bytes());
+            say(&mut client, &format!("send 181 {number:02X}\n"));
         }
         assert_eq!(said(&mut client), "");
-        client.feed(b"wait 0\n");
+        say(&mut client, "wait 0\n");
         pass(&bus, &mut [&mut client]);
         assert_eq!(said(&mut client), "refused send 181 40\nrefused send 181 41\nnow 0\n");
-        client.feed(b"wait 100000\n");
+        say(&mut client, "wait 100000\n");
         pass(&bus, &mut [&mut client]);
         let arrived =
             std::iter::from_fn(|| device.receive().unwrap()).map(|received| received.frame.data()[0]);
         assert_eq!(arrived.collect::<Vec<_>>(), (0..64).collect::<Vec<_>>());
-        client.feed(b"send 181 40\n");
+        say(&mut client, "send 181 40\n");
         bus.advance(Instant(200_000));
         assert_eq!(device.receive().unwrap().map(|received| received.frame.data()[0]), Some(0x40));
     }
@@ -193,10 +199,10 @@ mod tests {
         let mut client = Conversation::new(&bus);
         client.take_output();
         for _ in 0..64 + MOST_REFUSED {
-            client.feed(b"send 181\n");
+            say(&mut client, "send 181\n");
         }
         assert_eq!(said(&mut client), "");
-        client.feed(b"send 181\n");
+        say(&mut client, "send 181\n");
         assert!(said(&mut client).starts_with("error 4096 frames are refused already"));
     }
 
@@ -205,14 +211,14 @@ mod tests {
         let bus = bus();
         let mut client = Conversation::new(&bus);
         client.take_output();
-        client.feed(b"hello\n\nsend 605 1\n");
+        say(&mut client, "hello\n\nsend 605 1\n");
         assert_eq!(
             said(&mut client),
             "error expected `send ID DATA` or `wait MICROSECONDS`\n\
              error data are up to 8 bytes of two hexadecimal digits without blanks, or R and the length of a remote \
              frame (R0 to R8)\n"
         );
-        client.feed(b"wait 7\n");
+        say(&mut client, "wait 7\n");
         pass(&bus, &mut [&mut client]);
         assert_eq!(said(&mut client), "now 7\n");
     }

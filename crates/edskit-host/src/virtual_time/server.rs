@@ -163,17 +163,16 @@ impl Client {
     fn hear(&mut self) -> Heard {
         let mut bytes = [0; 4096];
         loop {
+            self.conversation.heed();
+            if self.say().is_err() {
+                return Heard::Gone;
+            }
             if let Some(until) = self.conversation.waits_until() {
                 return Heard::Waits(until);
             }
             match self.stream.read(&mut bytes) {
                 Ok(0) => return Heard::Gone,
-                Ok(count) => {
-                    self.conversation.feed(&bytes[..count]);
-                    if self.say().is_err() {
-                        return Heard::Gone;
-                    }
-                }
+                Ok(count) => self.conversation.feed(&bytes[..count]),
                 Err(error) => match error.kind() {
                     io::ErrorKind::Interrupted => {}
                     io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut => return Heard::Thinks,
