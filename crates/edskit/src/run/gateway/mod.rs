@@ -14,9 +14,13 @@ use crate::live::{Log, TraceFile};
 use crate::{Exit, Streams};
 use edskit_devices::gateway::{Engine, Gateway};
 use edskit_host::MemoryStorage;
+use edskit_types::Bitrate;
 use governor::DescribedEngine;
 pub(crate) use session::LiveGateway;
 use std::io;
+
+/// The bit rate of a bus in virtual time where the gateway has manual bit timing, which names none.
+const MANUAL_TIMING: Bitrate = Bitrate::Kbit125;
 
 pub(super) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
     if arguments.node_id.is_some() {
