@@ -31,6 +31,7 @@ const STEPS: &[Step] = &[
     ("size of a firmware", thumb::firmware),
     ("independent reading of the corpus", python::independent_reading),
     ("conformance of nodes", conformance::of_nodes),
+    ("every real file as a device", conformance::of_real_files),
     ("tutorial of the gateway", tutorial::of_gateway),
 ];
 

@@ -4,7 +4,7 @@ use crate::conformance::binaries;
 use crate::python;
 use crate::root;
 use crate::say;
-use crate::step::{Outcome, cargo, run};
+use crate::step::Outcome;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -35,9 +35,8 @@ pub(crate) fn of_gateway() -> Outcome {
         Ok(python) => python,
         Err(reason) => return Outcome::LeftOut(reason),
     };
-    match run(&mut cargo(&["build", "--quiet", "--workspace", "--bin", "edskit"])) {
-        Outcome::Passed => {}
-        outcome => return outcome,
+    if let Err(reason) = crate::conformance::build_edskit() {
+        return Outcome::Failed(reason);
     }
     match follow(&python) {
         Ok(count) => {

@@ -232,7 +232,8 @@ pub(crate) enum ReadFormat {
 
 fn parse_bit_rate(text: &str) -> Result<Bitrate, String> {
     let bit_rate = text.parse().ok().and_then(Bitrate::from_kbit_per_s);
-    bit_rate.ok_or_else(|| "a bit rate of CANopen is 10, 20, 50, 125, 250, 500, 800 or 1000 kbit/s".to_owned())
+    bit_rate
+        .ok_or_else(|| "a bit rate of CANopen is 10, 20, 50, 125, 250, 500, 800 or 1000 kbit/s".to_owned())
 }
 
 /// The longest time that can be simulated, in s: eleven days.

@@ -39,7 +39,8 @@ pub(super) fn run(
     let where_it_is = match &reachable[..] {
         [] => arguments.bus.to_string(),
         addresses => {
-            let addresses: Vec<_> = addresses.iter().map(|(protocol, at)| format!("{protocol} {at}")).collect();
+            let addresses: Vec<_> =
+                addresses.iter().map(|(protocol, at)| format!("{protocol} {at}")).collect();
             addresses.join(", ")
         }
     };
