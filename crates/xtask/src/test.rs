@@ -22,6 +22,7 @@ const STEPS: &[Step] = &[
     ("conformance of nodes", conformance::of_nodes),
     ("every real file as a device", conformance::of_real_files),
     ("tutorial of the gateway", tutorial::of_gateway),
+    ("page on virtual time", tutorial::of_virtual_time),
 ];
 
 /// Runs every step, also behind one that failed, and ends with a summary; with words only the steps whose titles have

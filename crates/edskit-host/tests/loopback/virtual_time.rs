@@ -248,3 +248,9 @@ fn a_bus_that_is_gone_or_is_another_one_is_told() {
     let error = VirtualClient::connect("127.0.0.1", port).err().expect("nobody listens any more");
     assert!(error.to_string().contains("nothing listens there"), "{error}");
 }
+
+#[test]
+fn the_page_on_virtual_time_shows_the_example() {
+    let page = include_str!("../../../../docs/virtual-time.md");
+    assert!(page.contains(include_str!("../../examples/time_to_boot.rs")));
+}

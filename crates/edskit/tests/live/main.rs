@@ -3,6 +3,7 @@
 
 mod gateway;
 mod process;
+mod virtual_time;
 
 use process::{Output, Process, edskit};
 use std::fs;
