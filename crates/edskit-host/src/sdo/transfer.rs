@@ -243,7 +243,8 @@ impl Transfer {
 
     /// The frame that `transmit` would give.
     pub(super) fn pending(&self) -> Option<Frame> {
-        let message = self.out.front().copied().or_else(|| self.next_segment().map(|(message, _)| message))?;
+        let message =
+            self.out.front().copied().or_else(|| self.next_segment().map(|(message, _)| message))?;
         Some(Frame::new(self.channel.request, &message))
     }
 

@@ -42,11 +42,13 @@ impl SdoValue {
         self.unsure == 0
     }
 
-    /// Whether `data_type` settles how many bytes the value has, where the server has not said it: its size is one that
-    /// the value can have.
+    /// Whether a value of this type has a certain length: the server has said it, or the size of the type is one that the
+    /// value can have, or zeros end a text.
     #[must_use]
     pub fn is_settled_by(&self, data_type: DataType) -> bool {
-        size(data_type).is_some_and(|size| self.can_have(size))
+        use DataTypeKind::{UnicodeString, VisibleString};
+        let is_text = matches!(data_type.kind(), VisibleString | UnicodeString);
+        self.is_length_said() || is_text || size(data_type).is_some_and(|size| self.can_have(size))
     }
 
     /// The bytes that count in a value of this type. Where the server has said the length, all do, and where it is not

@@ -115,8 +115,9 @@ fn values_of_any_length_reach_servers_without_blocks() {
         _ => Some([0x60, a, b, c, 0, 0, 0, 0]),
     };
     let reserved: Blocks = |_| Some([0xFF; 8]);
-    for (kind, blocks) in
-        [aborted, aborted_without_place, aborted_with_bits, silent, ordinary, reserved].into_iter().enumerate()
+    for (kind, blocks) in [aborted, aborted_without_place, aborted_with_bits, silent, ordinary, reserved]
+        .into_iter()
+        .enumerate()
     {
         for length in [257, 889, 1000] {
             let (value, mut stored) = (bytes(length), Vec::new());
@@ -136,7 +137,8 @@ fn values_of_any_length_reach_servers_without_blocks() {
 #[test]
 fn who_wants_blocks_is_told_that_there_are_none() {
     let mut stored = bytes(300);
-    let mut bus = Scripted::new(without_blocks(&mut stored, |[_, a, b, c, ..]| Some([0x80, a, b, c, 1, 0, 4, 5])));
+    let mut bus =
+        Scripted::new(without_blocks(&mut stored, |[_, a, b, c, ..]| Some([0x80, a, b, c, 1, 0, 4, 5])));
     let error = client().mode(SdoMode::Block).read(&mut bus, DOMAIN, SubIndex(0)).unwrap_err();
     assert!(matches!(error, SdoError::Aborted(AbortCode::UNKNOWN_COMMAND)));
     let error = client().mode(SdoMode::Block).write(&mut bus, DOMAIN, SubIndex(0), &[1]).unwrap_err();
@@ -186,7 +188,8 @@ fn a_server_may_confirm_a_block_before_it_is_out() {
     let mut taken = Vec::new();
     let mut bus = Scripted::new(losing(|count| count == 10, &mut taken));
     client().write(&mut bus, DOMAIN, SubIndex(0), &value).unwrap();
-    let segments: Vec<u8> = bus.requests[1..bus.requests.len() - 1].iter().map(|request| request[0]).collect();
+    let segments: Vec<u8> =
+        bus.requests[1..bus.requests.len() - 1].iter().map(|request| request[0]).collect();
     let stopped = segments.iter().skip(1).position(|number| *number == 1).expect("a second block") + 1;
     assert!((11..=13).contains(&stopped), "{stopped} segments before the client stops");
     assert_eq!(segments.len(), stopped + 91, "and it goes on with the tenth");

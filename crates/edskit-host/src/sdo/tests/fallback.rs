@@ -48,7 +48,8 @@ fn writes_in_segments(mut bench: Bench) {
 
 #[test]
 fn whatever_code_refuses_blocks() {
-    let codes = [0x0504_0001, 0x0504_0000, 0x0504_0002, 0x0503_0000, 0x0601_0000, 0x0800_0000, 0x0800_0020, 0];
+    let codes =
+        [0x0504_0001, 0x0504_0000, 0x0504_0002, 0x0503_0000, 0x0601_0000, 0x0800_0000, 0x0800_0020, 0];
     for code in codes {
         let mut bench = asked_to_read();
         assert_eq!(bench.answer(&abort(code)), [READ], "{code:08X}h");
@@ -89,7 +90,10 @@ fn an_ordinary_answer_to_a_request_for_blocks() {
 fn a_first_answer_that_comes_twice_costs_the_blocks_and_nothing_else() {
     let mut bench = asked_to_read();
     bench.answer(&LONG);
-    assert!(bench.answer(&[0xC6, 3, 0x20, 1, 44, 1]).is_empty(), "the answer to the request for blocks is late");
+    assert!(
+        bench.answer(&[0xC6, 3, 0x20, 1, 44, 1]).is_empty(),
+        "the answer to the request for blocks is late"
+    );
     reads_in_segments(bench);
 }
 

@@ -1,6 +1,7 @@
 //! SDO: what each message does, and which transfer it belongs to (CiA 301 v4.2, 7.2.4).
 
 use crate::monitor::network::Shown;
+use edskit_host::sdo::SdoValue;
 use edskit_types::{AbortCode, Index, SdoMessage, SubIndex};
 use serde::Serialize;
 
@@ -17,6 +18,9 @@ pub(crate) struct Sdo {
     /// What has been read or written, with the message that completes it
     #[serde(flatten)]
     pub(crate) shown: Option<Shown>,
+    /// Whether its length was said; else the data type says it, where it can.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) length_said: Option<bool>,
     /// Whether the value was written.
     #[serde(skip)]
     pub(crate) is_written: bool,
@@ -30,8 +34,19 @@ pub(super) struct Step {
     what: String,
     place: Option<(Index, SubIndex)>,
     /// The value that is complete now, and whether it is written.
-    value: Option<(Vec<u8>, bool)>,
+    value: Option<(SdoValue, bool)>,
+    /// What the entry holds, as a transfer shows that has come to its end with this message.
+    pub(super) held: Option<Held>,
     abort: Option<AbortCode>,
+}
+
+/// What an entry of the node holds.
+pub(super) struct Held {
+    pub(super) place: (Index, SubIndex),
+    /// `None` where it was not seen whole.
+    pub(super) value: Option<SdoValue>,
+    /// Whether it was written and the node has confirmed it, or it was read.
+    pub(super) is_written: bool,
 }
 
 impl Sdo {
@@ -40,11 +55,11 @@ impl Sdo {
         node: u8,
         message: SdoMessage,
         step: Step,
-        look_up: impl FnOnce(Index, SubIndex, Option<&[u8]>) -> (Option<String>, Option<Shown>),
+        look_up: impl FnOnce(Index, SubIndex, Option<&SdoValue>) -> (Option<String>, Option<Shown>),
     ) -> Self {
-        let Step { what, place, value, abort } = step;
-        let bytes = value.as_ref().map(|(bytes, _)| &bytes[..]);
-        let (name, shown) = place.map_or((None, None), |(index, sub_index)| look_up(index, sub_index, bytes));
+        let Step { what, place, value, abort, .. } = step;
+        let held = value.as_ref().map(|(value, _)| value);
+        let (name, shown) = place.map_or((None, None), |(index, sub_index)| look_up(index, sub_index, held));
         Self {
             node,
             is_request: message == SdoMessage::Request,
@@ -53,6 +68,7 @@ impl Sdo {
             sub_index: place.map(|(_, sub_index)| sub_index.0),
             name,
             shown,
+            length_said: held.map(SdoValue::is_length_said),
             is_written: value.is_some_and(|(_, is_written)| is_written),
             abort_code: abort.map(|code| code.0),
             abort,
@@ -63,15 +79,23 @@ impl Sdo {
 /// How much of a value is remembered; of longer ones the transfer is followed, but the value is not shown.
 const MOST_BYTES: usize = 1 << 20;
 
-/// The channel of a node with the transfer that runs on it.
+/// A channel of a node with the transfer that runs on it.
 #[derive(Default)]
-pub(super) struct Channel(Option<Running>);
+pub(super) struct Channel {
+    running: Option<Running>,
+    /// What has been written in one message, until it is confirmed.
+    written: Option<((Index, SubIndex), SdoValue)>,
+}
 
 struct Running {
     place: (Index, SubIndex),
     is_write: bool,
     /// `None` where a part is missing or where it is too long.
     data: Option<Vec<u8>>,
+    /// How many bytes there are, where that was said before they came.
+    announced: Option<u32>,
+    /// How many of the last bytes may be filling.
+    unsure: usize,
     /// The toggle bit of the segment that was taken last.
     toggle: Option<u8>,
     /// In a block transfer: the segments of the block that came in order, and whether segments come now.
@@ -83,7 +107,29 @@ struct Running {
 impl Running {
     fn new(place: (Index, SubIndex), is_write: bool) -> Self {
         let (data, block) = (Some(Vec::new()), Vec::new());
-        Self { place, is_write, data, toggle: None, block, is_in_block: false, is_complete: false }
+        Self {
+            place,
+            is_write,
+            data,
+            announced: None,
+            unsure: 0,
+            toggle: None,
+            block,
+            is_in_block: false,
+            is_complete: false,
+        }
+    }
+
+    /// The value, as far as it has come. What the last segment leaves unsaid, the first message may have said.
+    fn value(&mut self) -> Option<SdoValue> {
+        let mut value = SdoValue { bytes: self.data.take()?, unsure: self.unsure };
+        if let Some(announced) = self.announced {
+            if value.bytes.len().saturating_sub(announced as usize) <= value.unsure {
+                value.bytes.truncate(announced as usize);
+            }
+            value.unsure = 0;
+        }
+        Some(value)
     }
 
     fn append(&mut self, bytes: &[u8]) {
@@ -121,10 +167,12 @@ fn said_length(is_said: bool, message: [u8; 8]) -> String {
 }
 
 /// The value of an expedited transfer.
-fn expedited(message: [u8; 8]) -> Vec<u8> {
+fn expedited(message: [u8; 8]) -> SdoValue {
     let command = message[0];
-    let unused = if command & 1 != 0 { usize::from(command >> 2 & 3) } else { 0 };
-    message[4..8 - unused].to_vec()
+    if command & 1 == 0 {
+        return SdoValue { bytes: message[4..].to_vec(), unsure: 3 };
+    }
+    SdoValue::new(message[4..8 - usize::from(command >> 2 & 3)].to_vec())
 }
 
 impl Channel {
@@ -143,12 +191,12 @@ impl Channel {
                 0 => self.begin(&format!("read in blocks of {}", message[4]), message, false),
                 1 => {
                     let step = self.step("end of blocks confirmed".to_owned());
-                    self.0 = None;
+                    self.running = None;
                     step
                 }
                 2 => self.confirm(message),
                 _ => {
-                    if let Some(running) = &mut self.0 {
+                    if let Some(running) = &mut self.running {
                         running.is_in_block = true;
                     }
                     self.step("start of blocks".to_owned())
@@ -176,7 +224,7 @@ impl Channel {
             4 => self.abort(message),
             5 => match command & 3 {
                 0 => {
-                    if let Some(running) = &mut self.0 {
+                    if let Some(running) = &mut self.running {
                         running.is_in_block = true;
                     }
                     self.at(message, format!("blocks of {}", message[4]))
@@ -190,8 +238,11 @@ impl Channel {
             }
             6 => {
                 let mut step = self.end_of_blocks(message);
-                if let Some(running) = &mut self.0 {
-                    step.value = running.data.take().map(|data| (data, false));
+                if let Some(running) = &mut self.running {
+                    let value = running.value();
+                    let place = running.place;
+                    step.held = Some(Held { place, value: value.clone(), is_written: false });
+                    step.value = value.map(|value| (value, false));
                 }
                 step
             }
@@ -201,60 +252,85 @@ impl Channel {
 
     /// A message that belongs to what is running.
     fn step(&self, what: String) -> Step {
-        Step { what, place: self.0.as_ref().map(|running| running.place), value: None, abort: None }
+        Step {
+            what,
+            place: self.running.as_ref().map(|running| running.place),
+            value: None,
+            held: None,
+            abort: None,
+        }
     }
 
     /// A message that names its place.
     fn at(&self, message: [u8; 8], what: String) -> Step {
-        Step { what, place: Some(place_of(message)), value: None, abort: None }
+        Step { what, place: Some(place_of(message)), value: None, held: None, abort: None }
     }
 
     fn begin(&mut self, what: &str, message: [u8; 8], is_write: bool) -> Step {
-        self.0 = Some(Running::new(place_of(message), is_write));
+        self.running = Some(Running::new(place_of(message), is_write));
+        self.written = None;
         self.at(message, what.to_owned())
     }
 
     fn abort(&mut self, message: [u8; 8]) -> Step {
-        self.0 = None;
+        self.running = None;
+        self.written = None;
         Step { abort: Some(AbortCode(number_of(message))), ..self.at(message, "abort".to_owned()) }
     }
 
     /// The transfer is over, and its value is known.
     fn complete(&mut self, what: String) -> Step {
         let mut step = self.step(what);
-        if let Some(running) = self.0.take() {
-            step.value = running.data.map(|data| (data, running.is_write));
+        if let Some(mut running) = self.running.take() {
+            let (place, value, is_written) = (running.place, running.value(), running.is_write);
+            step.held = Some(Held { place, value: value.clone(), is_written });
+            step.value = value.map(|value| (value, is_written));
         }
         step
+    }
+
+    /// The message that begins a transfer of more than one says how long it is, or does not.
+    fn announce(&mut self, is_said: bool, message: [u8; 8]) -> String {
+        if let Some(running) = &mut self.running {
+            running.announced = is_said.then(|| number_of(message));
+        }
+        said_length(is_said, message)
     }
 
     fn begin_write(&mut self, message: [u8; 8]) -> Step {
         let command = message[0];
         if command & 2 == 0 {
-            let length = said_length(command & 1 != 0, message);
-            return self.begin(&format!("write in segments{length}"), message, true);
+            let mut step = self.begin("write in segments", message, true);
+            step.what += &self.announce(command & 1 != 0, message);
+            return step;
         }
         let mut step = self.begin("write", message, true);
-        self.0 = None;
+        self.running = None;
+        self.written = Some((place_of(message), expedited(message)));
         step.value = Some((expedited(message), true));
         step
     }
 
     fn write_begun(&mut self, message: [u8; 8]) -> Step {
-        let is_in_segments = self.0.as_ref().is_some_and(|running| running.is_write);
+        let is_in_segments = self.running.as_ref().is_some_and(|running| running.is_write);
         let what = if is_in_segments { "ready for segments" } else { "write confirmed" };
-        self.at(message, what.to_owned())
+        let mut step = self.at(message, what.to_owned());
+        if let Some((place, value)) = self.written.take_if(|(place, _)| *place == place_of(message)) {
+            step.held = Some(Held { place, value: Some(value), is_written: true });
+        }
+        step
     }
 
     fn read_begun(&mut self, message: [u8; 8]) -> Step {
         let command = message[0];
         if command & 2 == 0 {
-            let length = said_length(command & 1 != 0, message);
+            let length = self.announce(command & 1 != 0, message);
             return self.at(message, format!("read in segments begun{length}"));
         }
-        self.0 = None;
-        let value = Some((expedited(message), false));
-        Step { value, ..self.at(message, "value".to_owned()) }
+        self.running = None;
+        let value = expedited(message);
+        let held = Some(Held { place: place_of(message), value: Some(value.clone()), is_written: false });
+        Step { value: Some((value, false)), held, ..self.at(message, "value".to_owned()) }
     }
 
     /// A segment of a transfer that is confirmed segment by segment. A repeated one counts once.
@@ -263,13 +339,15 @@ impl Channel {
         let (toggle, is_last) = (command >> 4 & 1, command & 1 != 0);
         let bytes = &message[1..8 - usize::from(command >> 1 & 7)];
         let what = format!("{}segment, toggle {toggle}", if is_last { "last " } else { "" });
-        if let Some(running) = &mut self.0
+        if let Some(running) = &mut self.running
             && running.is_write == is_write
             && running.toggle != Some(toggle)
         {
             running.toggle = Some(toggle);
             running.append(bytes);
             running.is_complete = is_last;
+            // A full segment is also one whose length is not said.
+            running.unsure = if bytes.len() == 7 { 6 } else { 0 };
             // What is written counts when the server has confirmed it.
             if is_last && !is_write {
                 return self.complete(what);
@@ -279,7 +357,8 @@ impl Channel {
     }
 
     fn segment_confirmed(&mut self) -> Step {
-        let is_complete = self.0.as_ref().is_some_and(|running| running.is_write && running.is_complete);
+        let is_complete =
+            self.running.as_ref().is_some_and(|running| running.is_write && running.is_complete);
         let what = "segment confirmed".to_owned();
         if is_complete { self.complete(what) } else { self.step(what) }
     }
@@ -287,7 +366,7 @@ impl Channel {
     /// A segment of a block, if this is where they come: its first byte is a number and no command.
     fn block_segment(&mut self, message: [u8; 8], is_request: bool) -> Option<Step> {
         let [head, bytes @ ..] = message;
-        let running = self.0.as_mut()?;
+        let running = self.running.as_mut()?;
         if !running.is_in_block || running.is_write != is_request || head == 0x80 {
             return None;
         }
@@ -302,7 +381,7 @@ impl Channel {
 
     fn confirm(&mut self, message: [u8; 8]) -> Step {
         let [_, sequence, size, ..] = message;
-        if let Some(running) = &mut self.0 {
+        if let Some(running) = &mut self.running {
             running.confirm(sequence);
         }
         self.step(format!("block confirmed up to segment {sequence}, next of {size}"))
@@ -312,7 +391,7 @@ impl Channel {
     fn end_of_blocks(&mut self, message: [u8; 8]) -> Step {
         let [command, low, high, ..] = message;
         let unused = usize::from(command >> 2 & 7);
-        if let Some(data) = self.0.as_mut().and_then(|running| running.data.as_mut()) {
+        if let Some(data) = self.running.as_mut().and_then(|running| running.data.as_mut()) {
             data.truncate(data.len().saturating_sub(unused));
         }
         self.step(format!("end of blocks, checksum {:04X}h", u16::from_le_bytes([low, high])))
