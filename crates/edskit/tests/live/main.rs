@@ -177,6 +177,7 @@ fn nmt_commands_reach_the_node() {
     let states = ["pre-operational", "operational", "stopped", "initialising", "pre-operational"];
     let seen: Vec<String> = node.lines().into_iter().skip(3).take(states.len()).collect();
     assert_eq!(seen, states);
+    quiet(&bus);
     let absent = edskit(&["nmt", "9", "reset", "--bus", &bus, "--timeout", "100"]);
     insta::assert_snapshot!("absent", clean(&absent, &bus));
 }
