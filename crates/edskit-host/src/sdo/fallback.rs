@@ -58,6 +58,7 @@ impl Transfer {
 
     fn begin_in_segments(&mut self) {
         self.options.mode = SdoMode::Segmented;
+        self.heard.without_blocks = true;
         self.confirmed = 0;
         self.announced = None;
         self.first = None;

@@ -10,6 +10,8 @@ use edskit_types::{CanId, NodeId, Party, PdoDirection};
 pub struct Heard {
     /// How many answers of the server the transfer has taken.
     pub answers: u32,
+    /// Whether blocks were tried first and segments then, so that two requests were waited for.
+    pub without_blocks: bool,
     /// The last frame on the server's identifier that was not the awaited answer. One without eight data bytes is no SDO
     /// message at all (CiA 301 v4.2, 7.2.4.3).
     pub untaken: Option<Frame>,

@@ -1,6 +1,6 @@
 //! One transfer, without a bus and without a clock.
 
-use super::message::{ABORT, Message, SERVICE, message, number_of, place_of};
+use super::message::{ABORT, LAST_SEGMENT, Message, SERVICE, message, number_of, place_of};
 use super::{Heard, SdoChannel, SdoError, SdoMode, SdoOptions, SdoValue};
 use edskit_runtime::{Frame, Instant};
 use edskit_types::{AbortCode, Index, SubIndex};
@@ -61,7 +61,7 @@ pub struct Transfer {
     /// Whether the server was told of an end which was none, and the code with which it may have answered that.
     pub(super) may_be_echoed: bool,
     pub(super) echo: Option<AbortCode>,
-    heard: Heard,
+    pub(super) heard: Heard,
     out: VecDeque<Message>,
     deadline: Instant,
     result: Option<Result<SdoValue, SdoError>>,
@@ -291,11 +291,19 @@ impl Transfer {
         place_of(answer) == (self.index, self.sub_index)
     }
 
-    /// Command specifier 4, whatever the reserved bits are. With such bits it could also be the last segment of a block, in
-    /// which the first byte is a number: there none counts, and elsewhere only one that names its place.
+    /// Command specifier 4, whatever the reserved bits are. With such bits it could also be the last segment of a block,
+    /// whose first byte is a number; then it is an abort if that is not the next number and all else is that of one.
     fn is_abort(&self, answer: &Message) -> bool {
-        let may_have_bits = !matches!(self.phase, Phase::BlockUpload { .. }) && self.is_for_us(answer);
-        answer[0] == ABORT || answer[0] & SERVICE == ABORT && may_have_bits
+        let has_its_place = self.is_for_us(answer);
+        let is_meant = match self.phase {
+            Phase::BlockUpload { sequence, .. } => {
+                let is_next = answer[0] & !LAST_SEGMENT == sequence + 1;
+                !is_next && has_its_place && AbortCode(number_of(answer)).meaning().is_some()
+            }
+            Phase::BlockUploadEnd => has_its_place,
+            _ => true,
+        };
+        answer[0] == ABORT || answer[0] & SERVICE == ABORT && is_meant
     }
 
     fn aborted(&mut self, answer: &Message, frame: &Frame) {

@@ -11,6 +11,10 @@ use edskit_types::{Index, NmtState, SubIndex};
 pub(super) fn on_silence(request: &Request<'_>, heard: &Heard) -> Vec<String> {
     let node = request.node;
     let mut reasons = Vec::new();
+    if heard.without_blocks {
+        reasons.push("It was asked for blocks first, and when that failed for segments.".to_owned());
+    }
+    let first = reasons.len();
     if let Some(frame) = &heard.untaken {
         reasons.push(on_untaken(request, frame, heard));
     }
@@ -40,7 +44,7 @@ pub(super) fn on_silence(request: &Request<'_>, heard: &Heard) -> Vec<String> {
             "Node {node} has answered {count} and then fallen silent: perhaps it needs longer, which --timeout gives it, \
              or it has left the bus."
         ));
-    } else if heard.is_there && reasons.is_empty() {
+    } else if heard.is_there && reasons.len() == first {
         let channel = SdoChannel::of_node(node);
         let sign = match state {
             Some(state) => format!("it says that it is {state}"),
@@ -53,7 +57,7 @@ pub(super) fn on_silence(request: &Request<'_>, heard: &Heard) -> Vec<String> {
         ));
     }
     let is_away = heard.has_booted_up || state == Some(NmtState::Stopped);
-    let is_silent = reasons.is_empty();
+    let is_silent = reasons.len() == first;
     if request.transfer == TransferKind::Block && heard.answers == 0 && !is_away {
         reasons.push(WITHOUT_BLOCKS.to_owned());
     }

@@ -213,7 +213,7 @@ fn an_abort_with_reserved_bits_is_one_and_none_is_answered() {
         assert!(bench.answer(&refused).is_empty());
         bench.result().unwrap_err();
     }
-    // Within a block that is read, all but 80h are segments.
+    // Within a block that is read, what has the next number is a segment.
     let mut bench = Bench::read(SdoMode::Block);
     bench.sent();
     bench.answer(&[0xC6, 3, 0x20, 1, 3]);
@@ -222,6 +222,17 @@ fn an_abort_with_reserved_bits_is_one_and_none_is_answered() {
     bench.sent();
     bench.answer(&[0xC6, 3, 0x20, 1, 3]);
     assert!(bench.answer(&abort(0x0800_0000)).is_empty());
+    assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::GENERAL_ERROR))));
+    let mut bench = Bench::read(SdoMode::Block);
+    bench.sent();
+    bench.answer(&[0xC6, 3, 0x20, 1, 21]);
+    bench.answer(&[1]);
+    assert!(bench.answer(&[0x9F, 3, 0x20, 1, 0, 0, 0, 8]).is_empty());
+    assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::GENERAL_ERROR))));
+    // Some servers leave the place out.
+    let mut bench = Bench::read(SdoMode::Segmented);
+    bench.sent();
+    bench.answer(&[0x81, 0, 0, 0, 0, 0, 0, 8]);
     assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::GENERAL_ERROR))));
 }
 

@@ -371,7 +371,13 @@ impl Channel {
             return None;
         }
         let (number, is_last) = (head & 0x7F, head & 0x80 != 0);
-        if usize::from(number) == running.block.len() + 1 {
+        let is_next = usize::from(number) == running.block.len() + 1;
+        // An abort may have reserved bits.
+        let is_known = AbortCode(number_of(message)).meaning().is_some();
+        if head >> 5 == 4 && !is_next && place_of(message) == running.place && is_known {
+            return None;
+        }
+        if is_next {
             running.block.push(bytes);
             running.is_complete = is_last;
         }

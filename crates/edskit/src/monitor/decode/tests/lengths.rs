@@ -53,6 +53,22 @@ fn the_type_says_what_a_message_does_not() {
     insta::assert_snapshot!(Screen::new().all(&frames));
 }
 
+// U8 of the field reports.
+#[test]
+fn an_abort_may_have_reserved_bits() {
+    let frames = [
+        "605h 40 17 10 00 00 00 00 00",
+        "585h 9F 17 10 00 00 00 02 06",
+        "605h 81 17 10 00 00 00 04 05",
+        "605h C6 03 20 00 0E 00 00 00",
+        "585h A4 03 20 00 7F 00 00 00",
+        "605h 01 65 6E 67 69 6E 65 20",
+        "605h 9F 03 20 00 00 00 04 05",
+        "585h 4B 17 10 00 E8 03 00 00",
+    ];
+    insta::assert_snapshot!(Screen::new().all(&frames));
+}
+
 #[test]
 fn json_says_whether_the_length_was_said() {
     let mut screen = Screen::new();
