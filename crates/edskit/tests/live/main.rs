@@ -214,6 +214,27 @@ fn the_monitor_shows_what_happens() {
     assert!(log.contains(") can0 605#4004200000000000\n"), "{log}");
 }
 
+#[test]
+fn the_monitor_follows_a_remapping() {
+    let (node, bus) = pump();
+    let monitor = Process::start(&["monitor", "--bus", &node.bus("slcan"), "--eds", &format!("{PUMP}@5")]);
+    monitor.wait_for("heartbeat");
+    let writes = [
+        ("1800:1", "0x80000185"),
+        ("1A00:0", "0"),
+        ("1A00:1", "0x20020020"),
+        ("1A00:0", "1"),
+        ("1800:1", "0x1B5"),
+    ];
+    for (place, value) in writes {
+        let written = edskit(&["sdo", "write", "5", place, value, "--bus", &bus, "--eds", PUMP]);
+        assert_eq!(written.code, 0, "{place}: {}", written.all());
+    }
+    edskit(&["nmt", "5", "start", "--bus", &bus]);
+    let line = monitor.wait_for("TPDO1");
+    assert!(line.contains("  1B5h  ") && line.contains("node 5   TPDO1     Power = "), "{line}");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_bus_has_clients_and_ends_when_asked_to() {

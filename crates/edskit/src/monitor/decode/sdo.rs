@@ -85,6 +85,8 @@ pub(super) struct Channel {
     running: Option<Running>,
     /// What has been written in one message, until it is confirmed.
     written: Option<((Index, SubIndex), SdoValue)>,
+    /// The write that was confirmed last; the same words once more say nothing new.
+    confirmed: Option<(Index, SubIndex)>,
 }
 
 struct Running {
@@ -268,7 +270,7 @@ impl Channel {
 
     fn begin(&mut self, what: &str, message: [u8; 8], is_write: bool) -> Step {
         self.running = Some(Running::new(place_of(message), is_write));
-        self.written = None;
+        (self.written, self.confirmed) = (None, None);
         self.at(message, what.to_owned())
     }
 
@@ -315,8 +317,12 @@ impl Channel {
         let is_in_segments = self.running.as_ref().is_some_and(|running| running.is_write);
         let what = if is_in_segments { "ready for segments" } else { "write confirmed" };
         let mut step = self.at(message, what.to_owned());
-        if let Some((place, value)) = self.written.take_if(|(place, _)| *place == place_of(message)) {
-            step.held = Some(Held { place, value: Some(value), is_written: true });
+        let place = place_of(message);
+        if !is_in_segments && self.confirmed != Some(place) {
+            // Without its request, it is known that the entry was written, but not what.
+            let value = self.written.take_if(|(written, _)| *written == place).map(|(_, value)| value);
+            step.held = Some(Held { place, value, is_written: true });
+            self.confirmed = Some(place);
         }
         step
     }
