@@ -1,87 +1,13 @@
-//! SDO: what each message does, and which transfer it belongs to (CiA 301 v4.2, 7.2.4).
+//! Which transfer a message belongs to, and what it does there.
 
-use crate::monitor::network::Shown;
+use super::running::Running;
+use super::{Held, Step};
 use edskit_host::sdo::SdoValue;
-use edskit_types::{AbortCode, Index, SdoMessage, SubIndex};
-use serde::Serialize;
-
-/// An SDO message.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub(crate) struct Sdo {
-    pub(crate) node: u8,
-    /// Whether it comes from the client.
-    pub(crate) is_request: bool,
-    pub(crate) step: String,
-    pub(crate) index: Option<u16>,
-    pub(crate) sub_index: Option<u8>,
-    pub(crate) name: Option<String>,
-    /// What has been read or written, with the message that completes it
-    #[serde(flatten)]
-    pub(crate) shown: Option<Shown>,
-    /// Whether its length was said; else the data type says it, where it can.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) length_said: Option<bool>,
-    /// Whether the value was written.
-    #[serde(skip)]
-    pub(crate) is_written: bool,
-    pub(crate) abort_code: Option<u32>,
-    #[serde(skip)]
-    pub(crate) abort: Option<AbortCode>,
-}
-
-/// What a message is, before names are known.
-pub(super) struct Step {
-    what: String,
-    place: Option<(Index, SubIndex)>,
-    /// The value that is complete now, and whether it is written.
-    value: Option<(SdoValue, bool)>,
-    /// What the entry holds, as a transfer shows that has come to its end with this message.
-    pub(super) held: Option<Held>,
-    abort: Option<AbortCode>,
-}
-
-/// What an entry of the node holds.
-pub(super) struct Held {
-    pub(super) place: (Index, SubIndex),
-    /// `None` where it was not seen whole.
-    pub(super) value: Option<SdoValue>,
-    /// Whether it was written and the node has confirmed it, or it was read.
-    pub(super) is_written: bool,
-}
-
-impl Sdo {
-    /// The message with names and values, which `look_up` knows.
-    pub(super) fn new(
-        node: u8,
-        message: SdoMessage,
-        step: Step,
-        look_up: impl FnOnce(Index, SubIndex, Option<&SdoValue>) -> (Option<String>, Option<Shown>),
-    ) -> Self {
-        let Step { what, place, value, abort, .. } = step;
-        let held = value.as_ref().map(|(value, _)| value);
-        let (name, shown) = place.map_or((None, None), |(index, sub_index)| look_up(index, sub_index, held));
-        Self {
-            node,
-            is_request: message == SdoMessage::Request,
-            step: what,
-            index: place.map(|(index, _)| index.0),
-            sub_index: place.map(|(_, sub_index)| sub_index.0),
-            name,
-            shown,
-            length_said: held.map(SdoValue::is_length_said),
-            is_written: value.is_some_and(|(_, is_written)| is_written),
-            abort_code: abort.map(|code| code.0),
-            abort,
-        }
-    }
-}
-
-/// How much of a value is remembered; of longer ones the transfer is followed, but the value is not shown.
-const MOST_BYTES: usize = 1 << 20;
+use edskit_types::{AbortCode, Index, SubIndex};
 
 /// A channel of a node with the transfer that runs on it.
 #[derive(Default)]
-pub(super) struct Channel {
+pub(crate) struct Channel {
     running: Option<Running>,
     /// What has been written in one message, until it is confirmed.
     written: Option<((Index, SubIndex), SdoValue)>,
@@ -89,96 +15,8 @@ pub(super) struct Channel {
     confirmed: Option<(Index, SubIndex)>,
 }
 
-struct Running {
-    place: (Index, SubIndex),
-    is_write: bool,
-    /// `None` where a part is missing or where it is too long.
-    data: Option<Vec<u8>>,
-    /// How many bytes there are, where that was said before they came.
-    announced: Option<u32>,
-    /// How many of the last bytes may be filling.
-    unsure: usize,
-    /// The toggle bit of the segment that was taken last.
-    toggle: Option<u8>,
-    /// In a block transfer: the segments of the block that came in order, and whether segments come now.
-    block: Vec<[u8; 7]>,
-    is_in_block: bool,
-    is_complete: bool,
-}
-
-impl Running {
-    fn new(place: (Index, SubIndex), is_write: bool) -> Self {
-        let (data, block) = (Some(Vec::new()), Vec::new());
-        Self {
-            place,
-            is_write,
-            data,
-            announced: None,
-            unsure: 0,
-            toggle: None,
-            block,
-            is_in_block: false,
-            is_complete: false,
-        }
-    }
-
-    /// The value, as far as it has come. What the last segment leaves unsaid, the first message may have said.
-    fn value(&mut self) -> Option<SdoValue> {
-        let mut value = SdoValue { bytes: self.data.take()?, unsure: self.unsure };
-        if let Some(announced) = self.announced {
-            if value.bytes.len().saturating_sub(announced as usize) <= value.unsure {
-                value.bytes.truncate(announced as usize);
-            }
-            value.unsure = 0;
-        }
-        Some(value)
-    }
-
-    fn append(&mut self, bytes: &[u8]) {
-        self.data = self.data.take().filter(|data| data.len() + bytes.len() <= MOST_BYTES);
-        if let Some(data) = &mut self.data {
-            data.extend_from_slice(bytes);
-        }
-    }
-
-    /// A confirmed part of a block.
-    fn confirm(&mut self, sequence: u8) {
-        let segments = std::mem::take(&mut self.block);
-        if segments.len() < usize::from(sequence) {
-            self.data = None;
-        }
-        for segment in segments.iter().take(sequence.into()) {
-            self.append(segment);
-        }
-        self.is_complete &= segments.len() == usize::from(sequence);
-        self.is_in_block = !self.is_complete;
-    }
-}
-
-fn place_of(message: [u8; 8]) -> (Index, SubIndex) {
-    (Index(u16::from_le_bytes([message[1], message[2]])), SubIndex(message[3]))
-}
-
-fn number_of(message: [u8; 8]) -> u32 {
-    u32::from_le_bytes([message[4], message[5], message[6], message[7]])
-}
-
-/// `, 12 bytes`, where a message that begins a transfer says its length.
-fn said_length(is_said: bool, message: [u8; 8]) -> String {
-    if is_said { format!(", {} bytes", number_of(message)) } else { String::new() }
-}
-
-/// The value of an expedited transfer.
-fn expedited(message: [u8; 8]) -> SdoValue {
-    let command = message[0];
-    if command & 1 == 0 {
-        return SdoValue { bytes: message[4..].to_vec(), unsure: 3 };
-    }
-    SdoValue::new(message[4..8 - usize::from(command >> 2 & 3)].to_vec())
-}
-
 impl Channel {
-    pub(super) fn request(&mut self, message: [u8; 8]) -> Step {
+    pub(crate) fn request(&mut self, message: [u8; 8]) -> Step {
         if let Some(segment) = self.block_segment(message, true) {
             return segment;
         }
@@ -213,7 +51,7 @@ impl Channel {
         }
     }
 
-    pub(super) fn response(&mut self, message: [u8; 8]) -> Step {
+    pub(crate) fn response(&mut self, message: [u8; 8]) -> Step {
         if let Some(segment) = self.block_segment(message, false) {
             return segment;
         }
@@ -408,4 +246,26 @@ impl Channel {
         }
         self.step(format!("end of blocks, checksum {:04X}h", u16::from_le_bytes([low, high])))
     }
+}
+
+fn place_of(message: [u8; 8]) -> (Index, SubIndex) {
+    (Index(u16::from_le_bytes([message[1], message[2]])), SubIndex(message[3]))
+}
+
+fn number_of(message: [u8; 8]) -> u32 {
+    u32::from_le_bytes([message[4], message[5], message[6], message[7]])
+}
+
+/// `, 12 bytes`, where a message that begins a transfer says its length.
+fn said_length(is_said: bool, message: [u8; 8]) -> String {
+    if is_said { format!(", {} bytes", number_of(message)) } else { String::new() }
+}
+
+/// The value of an expedited transfer.
+fn expedited(message: [u8; 8]) -> SdoValue {
+    let command = message[0];
+    if command & 1 == 0 {
+        return SdoValue { bytes: message[4..].to_vec(), unsure: 3 };
+    }
+    SdoValue::new(message[4..8 - usize::from(command >> 2 & 3)].to_vec())
 }
