@@ -4,7 +4,7 @@ mod live;
 
 pub(crate) use live::{
     BusArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, RunArguments, SdoArguments,
-    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
+    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments, TransferKind,
 };
 
 use clap::builder::NonEmptyStringValueParser;

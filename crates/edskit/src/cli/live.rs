@@ -71,8 +71,8 @@ pub(crate) struct MonitorArguments {
     /// `socketcan:can0`; `hub` starts one
     #[arg(long, value_name = "ADDRESS", default_value = HUB_WITH_REMOTE_FRAMES)]
     pub(crate) bus: Address,
-    /// An EDS or DCF that gives names and types to what a node says; @NODE says which one, a DCF knows its own; may be
-    /// given several times
+    /// An EDS or DCF that gives names and types to what a node says, and its PDOs until transfers show others; @NODE says
+    /// which one, a DCF knows its own; may be given several times
     #[arg(long = "eds", value_name = "FILE[@NODE]", value_hint = ValueHint::FilePath)]
     pub(crate) devices: Vec<String>,
     /// How frames are printed
@@ -201,7 +201,7 @@ pub(crate) struct SdoWriteArguments {
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum TransferKind {
-    /// What suits the length
+    /// What suits the length; segments where the node does no blocks
     Auto,
     /// In segments
     Segmented,

@@ -2,6 +2,7 @@
 
 mod decode;
 mod network;
+mod node;
 mod render;
 
 use crate::cli::MonitorArguments;

@@ -103,8 +103,8 @@ impl Started {
             }
             match transfer.result() {
                 None => {}
-                Some(Ok(bytes)) => {
-                    let number = bytes.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
+                Some(Ok(value)) => {
+                    let number = value.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
                     return Ok(Some(number));
                 }
                 Some(Err(SdoError::Aborted(
