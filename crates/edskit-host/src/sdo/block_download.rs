@@ -55,7 +55,8 @@ impl Transfer {
     }
 
     /// The server has taken segments up to a number; those behind it are sent again, as the first ones of the next block.
-    /// CiA 301 v4.2, 7.2.4.3.13 has it say so when the block is out, but a server that misses a segment may say so at once.
+    /// CiA 301 v4.2, 7.2.4.3 has it say so when the block is out. Here it counts at any time: there are servers that say at
+    /// once which segment they miss, and take nothing more of that block.
     pub(super) fn block_confirmed(&mut self, answer: &Message, sent: u8, size: u8) -> bool {
         let [command, sequence, next_size, ..] = *answer;
         let left = self.segments_left();

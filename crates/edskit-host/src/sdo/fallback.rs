@@ -6,7 +6,7 @@ use super::{SdoError, SdoMode, SdoValue, Transfer};
 use edskit_types::AbortCode;
 
 impl Transfer {
-    /// An answer to the request for blocks that only an ordinary transfer has. CiA 301 v4.2, 7.2.4.3.9 lets a server switch
+    /// An answer to the request for blocks that only an ordinary transfer has. CiA 301 v4.2, 7.2.4.3 lets a server switch
     /// only where the client allows it, but some do it always.
     pub(super) fn switches_to_segments(&mut self, answer: &Message) -> bool {
         let is_ordinary = matches!(answer[0] & SERVICE, 0x40 | 0x60) && self.is_for_us(answer);

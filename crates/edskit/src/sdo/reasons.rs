@@ -52,7 +52,10 @@ fn on_abort(request: &Request<'_>, code: AbortCode) -> Vec<String> {
         AbortCode::INVALID_VALUE | AbortCode::VALUE_TOO_HIGH | AbortCode::VALUE_TOO_LOW => {
             on_order(request).or_else(|| on_limits(entry?, file))
         }
-        AbortCode::CANNOT_TRANSFER | AbortCode::LOCAL_CONTROL | AbortCode::DEVICE_STATE => {
+        AbortCode::LOCAL_CONTROL => {
+            Some("What operates the device on the spot, a key or a panel say, keeps this from the bus.".to_owned())
+        }
+        AbortCode::CANNOT_TRANSFER | AbortCode::DEVICE_STATE => {
             on_signature(request).or_else(|| Some(on_state(request)))
         }
         AbortCode::UNKNOWN_COMMAND

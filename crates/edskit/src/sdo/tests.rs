@@ -184,5 +184,7 @@ fn what_ends_a_transfer_is_explained_by_its_kind() {
     all += &sdo(&["write", "5", "2000", "300", "--type", "hex"], refuse(0x0601_0002));
     all += &sdo(&["write", "5", "2000", "300", "--type", "hex", "--transfer", "block"], refuse(0x0504_0004));
     all += &sdo(&["read", "5", "1017", "--transfer", "block"], |_| vec![answer(&[0xFF; 8])]);
+    all += &sdo(&["read", "5", "1017"], refuse(0x0800_0021));
+    all += &sdo(&["read", "5", "1017"], refuse(0x0800_0022));
     insta::assert_snapshot!(all);
 }
