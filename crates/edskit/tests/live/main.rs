@@ -3,6 +3,7 @@
 
 mod gateway;
 mod process;
+mod readme;
 
 use process::{Output, Process, edskit};
 use std::fs;
