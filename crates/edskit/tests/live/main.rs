@@ -3,6 +3,7 @@
 
 mod gateway;
 mod process;
+mod readme;
 mod virtual_time;
 
 use process::{Output, Process, edskit};
