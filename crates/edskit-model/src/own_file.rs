@@ -21,7 +21,10 @@ pub enum OwnFile {
 const MARKS: [(OwnFile, &[&str]); 5] = [
     (OwnFile::Parameters, &["device", "gateway", "governor", "governor.signals"]),
     (OwnFile::Scenario, &["step", "step.gateway", "step.governor", "step.engine", "step.read"]),
-    (OwnFile::Settings, &["select", "extend-select", "ignore", "profiles", "severity", "override", "override.severity"]),
+    (
+        OwnFile::Settings,
+        &["select", "extend-select", "ignore", "profiles", "severity", "override", "override.severity"],
+    ),
     (OwnFile::Profile, &["device-profile", "object", "require"]),
     (OwnFile::SideFile, &["optional", "variable", "rpdo", "storage", "capacity", "unit", "extra"]),
 ];
@@ -40,7 +43,8 @@ impl OwnFile {
     pub fn of(text: &str) -> Option<Self> {
         let text = text.trim_start_matches('\u{FEFF}').trim_start();
         if text.starts_with('{') {
-            let is_baseline = ["\"version\"", "\"files\"", "\"rule\"", "\"section\""].iter().all(|key| text.contains(key));
+            let is_baseline =
+                ["\"version\"", "\"files\"", "\"rule\"", "\"section\""].iter().all(|key| text.contains(key));
             return is_baseline.then_some(Self::Baseline);
         }
         let mut found = None;
@@ -109,15 +113,24 @@ mod tests {
     #[test]
     fn each_kind_is_known_and_nothing_else() {
         for (text, kind) in [
-            ("device = \"heinzmann-canopen-gateway\"\n[gateway]\n427 = 5\n[governor.signals]\n1 = \"u8\"\n", Some(OwnFile::Parameters)),
+            (
+                "device = \"heinzmann-canopen-gateway\"\n[gateway]\n427 = 5\n[governor.signals]\n1 = \"u8\"\n",
+                Some(OwnFile::Parameters),
+            ),
             ("gateway = { 427 = 5 }\n", Some(OwnFile::Parameters)),
             ("[[step]]\nat = 1\n\n[step.gateway]\n427 = 2\n", Some(OwnFile::Scenario)),
             ("step = [{ at = 1 }]", Some(OwnFile::Scenario)),
             ("device = \"x\"\n[[step]]\n", Some(OwnFile::Scenario)),
             ("extend-select = [\"FIL008\"]\n[severity]\nOBJ016 = \"error\"\n", Some(OwnFile::Settings)),
-            ("name = \"Pump rules\"\nobject = [\n    { index = 0x1017, name = \"heartbeat\" },\n]\n", Some(OwnFile::Profile)),
+            (
+                "name = \"Pump rules\"\nobject = [\n    { index = 0x1017, name = \"heartbeat\" },\n]\n",
+                Some(OwnFile::Profile),
+            ),
             ("optional = [\"2009\"]\n[unit]\n\"1017\" = \"ms\"\n", Some(OwnFile::SideFile)),
-            ("{\"version\": 1, \"files\": {\"a.eds\": [{\"rule\": \"SYN001\", \"section\": \"\", \"line\": \"\"}]}}", Some(OwnFile::Baseline)),
+            (
+                "{\"version\": 1, \"files\": {\"a.eds\": [{\"rule\": \"SYN001\", \"section\": \"\", \"line\": \"\"}]}}",
+                Some(OwnFile::Baseline),
+            ),
             ("{\"message\": \"Not Found\"}", None),
             ("[FileInfo]\nFileName=a.eds\n", None),
             ("device=1\n[DeviceInfo]\n", None),

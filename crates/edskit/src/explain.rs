@@ -43,7 +43,8 @@ pub(crate) fn run(arguments: &ExplainArguments, streams: &mut Streams) -> io::Re
         ExplainFormat::CrossReference => out.write_all(cross_reference::page(&chosen)?.as_bytes())?,
         ExplainFormat::Json => {
             let rules = chosen.iter().map(|rule| ExplainedRule::new(rule));
-            let explained: Vec<_> = rules.chain(kinds.iter().map(|kind| ExplainedRule::of_kind(kind))).collect();
+            let explained: Vec<_> =
+                rules.chain(kinds.iter().map(|kind| ExplainedRule::of_kind(kind))).collect();
             serde_json::to_writer_pretty(&mut *out, &explained)?;
             writeln!(out)?;
         }
@@ -57,7 +58,9 @@ fn kinds_named(selector: &str) -> Vec<&'static Kind> {
     let wanted = selector.trim();
     let code = wanted.to_ascii_uppercase();
     let is_named = |kind: &&&'static Kind| {
-        code == "ALL" || (!code.is_empty() && kind.code.starts_with(&code)) || kind.name.eq_ignore_ascii_case(wanted)
+        code == "ALL"
+            || (!code.is_empty() && kind.code.starts_with(&code))
+            || kind.name.eq_ignore_ascii_case(wanted)
     };
     ALL.iter().filter(is_named).copied().collect()
 }
@@ -73,7 +76,14 @@ fn unknown(error: UnknownRule) -> UnknownRule {
 
 fn rule_in_words(rule: &Rule) -> String {
     let state = if rule.enabled { "" } else { ", off by default" };
-    format!("{} {} ({}{state}, since {})\n\n{}\n", rule.code, rule.name, rule.severity, rule.since, rule.docs())
+    format!(
+        "{} {} ({}{state}, since {})\n\n{}\n",
+        rule.code,
+        rule.name,
+        rule.severity,
+        rule.since,
+        rule.docs()
+    )
 }
 
 fn kind_in_words(kind: &Kind) -> String {

@@ -62,7 +62,8 @@ fn format_input(input: &Input, arguments: &FmtArguments, streams: &mut Streams) 
         || sheet.sections().all(|section| section.kind() == SectionKind::Unknown)
     {
         let reason = files::own_file(before);
-        let reason = reason.unwrap_or_else(|| "this is no CANopen file; `edskit lint` says what it is".to_owned());
+        let reason =
+            reason.unwrap_or_else(|| "this is no CANopen file; `edskit lint` says what it is".to_owned());
         return Err(format!("{name}: left alone, {reason}"));
     }
     let after = format(&sheet);

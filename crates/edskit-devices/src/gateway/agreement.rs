@@ -57,7 +57,8 @@ impl Configuration {
     pub fn hindrances(&self) -> impl Iterator<Item = Hindrance> {
         let links = [GATEWAY_LINK, GOVERNOR_LINK].into_iter();
         let off = links.filter(|link| self.get(*link) == 0).map(Hindrance::SwitchedOff);
-        let numbers = NUMBERS.into_iter().filter(|(gateway, governor)| self.get(*gateway) != self.get(*governor));
+        let numbers =
+            NUMBERS.into_iter().filter(|(gateway, governor)| self.get(*gateway) != self.get(*governor));
         let numbers = numbers.map(|(gateway, governor)| Hindrance::NodeNumbers { gateway, governor });
         let rates = Hindrance::BitRates { gateway: GATEWAY_RATE, governor: GOVERNOR_RATE };
         off.chain(numbers).chain(self.bit_rates_differ().then_some(rates))
@@ -67,7 +68,8 @@ impl Configuration {
     /// to cannot be computed, and is taken to fit (GW-NOTE-48).
     #[must_use]
     pub fn bit_rates_differ(&self) -> bool {
-        let is_manual = [BitTiming::OF_GATEWAY, BitTiming::OF_GOVERNOR].iter().any(|timing| timing.is_manual(self));
+        let is_manual =
+            [BitTiming::OF_GATEWAY, BitTiming::OF_GOVERNOR].iter().any(|timing| timing.is_manual(self));
         !is_manual && self.get(GATEWAY_RATE) != self.get(GOVERNOR_RATE)
     }
 }

@@ -18,7 +18,8 @@ impl BitTiming {
     /// That of the gateway on CANopen: P420 to P425 with P4426 (GW-CFG-38).
     pub const OF_CANOPEN: BitTiming = BitTiming { switch: known(Owner::Gateway, 4426), numbers: (420, 425) };
     /// That of the governor: P410 to P414 with P4416, which is its P4409 as well (GW-NOTE-37, GW-NOTE-38).
-    pub const OF_GOVERNOR: BitTiming = BitTiming { switch: known(Owner::Governor, 4416), numbers: (410, 414) };
+    pub const OF_GOVERNOR: BitTiming =
+        BitTiming { switch: known(Owner::Governor, 4416), numbers: (410, 414) };
     /// Every one.
     pub const ALL: [BitTiming; 3] = [Self::OF_GATEWAY, Self::OF_CANOPEN, Self::OF_GOVERNOR];
 

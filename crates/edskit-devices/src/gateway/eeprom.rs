@@ -35,6 +35,11 @@ impl EepromErrors {
         self.has(0)
     }
 
+    /// What the program finds when it starts: the bootloader's own page has been good then.
+    pub(super) const fn of_program(self) -> Self {
+        Self(self.0 & !1)
+    }
+
     /// Bit 3.
     pub(super) const fn hides_serial_number(self) -> bool {
         self.has(3)

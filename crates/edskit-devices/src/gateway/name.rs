@@ -78,7 +78,11 @@ impl Rest<'_> {
 impl Write for Rest<'_> {
     fn write_str(&mut self, expected: &str) -> fmt::Result {
         let is_next = |expected: char| self.next().is_some_and(|next| next.eq_ignore_ascii_case(&expected));
-        if expected.chars().filter(|expected| counts(*expected)).all(is_next) { Ok(()) } else { Err(fmt::Error) }
+        if expected.chars().filter(|expected| counts(*expected)).all(is_next) {
+            Ok(())
+        } else {
+            Err(fmt::Error)
+        }
     }
 }
 

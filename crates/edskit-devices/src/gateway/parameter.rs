@@ -145,9 +145,7 @@ impl Parameter {
     /// The parameter of this name, in any case, as the lists or an example of the manual spell it (GW-NOTE-43).
     #[must_use]
     pub fn by_name(owner: Owner, name: &str) -> Option<Parameter> {
-        parameters()
-            .filter(|parameter| parameter.owner() == owner)
-            .find(|parameter| parameter.has_name(name))
+        parameters().filter(|parameter| parameter.owner() == owner).find(|parameter| parameter.has_name(name))
     }
 
     /// Whether the manual calls this parameter so, anywhere: as its lists spell it, as an example prints it, or a member of

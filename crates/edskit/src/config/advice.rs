@@ -1,11 +1,12 @@
 //! What the gateway does not check, and what is hardly meant.
 
-use super::problem::{self, Problem};
 use super::decimal::Decimal;
+use super::problem::{self, Problem};
 use super::reading::Reading;
 use super::words;
 use edskit_devices::gateway::{
-    Activity, BitTiming, Hindrance, Input, Owner, Parameter, Pdo, PdoTable, Period, SignalType, Signals, Target,
+    Activity, BitTiming, Hindrance, Input, Owner, Parameter, Pdo, PdoTable, Period, SignalType, Signals,
+    Target,
 };
 use edskit_lint::Severity;
 
@@ -207,7 +208,8 @@ fn units(reading: &Reading, problems: &mut Vec<Problem>) {
     for hindrance in reading.configuration.hindrances() {
         problems.push(match hindrance {
             Hindrance::NodeNumbers { gateway, governor } | Hindrance::BitRates { gateway, governor } => {
-                disagreement(reading, gateway, governor).help(format!("write the same value into both; {NO_CANOPEN}"))
+                disagreement(reading, gateway, governor)
+                    .help(format!("write the same value into both; {NO_CANOPEN}"))
             }
             Hindrance::SwitchedOff(parameter) => {
                 let peer = match parameter.owner() {
@@ -291,7 +293,12 @@ fn uncompared_bit_timings(reading: &Reading, problems: &mut Vec<Problem>) {
 
 fn decimal_identifiers(reading: &Reading, told: &[Parameter], problems: &mut Vec<Problem>) {
     for decimal in Decimal::all(reading).filter(|decimal| !told.contains(&decimal.parameter)) {
-        let message = format!("{} is written in {} digits, and is {}", decimal.parameter, decimal.digits(), decimal.amount());
+        let message = format!(
+            "{} is written in {} digits, and is {}",
+            decimal.parameter,
+            decimal.digits(),
+            decimal.amount()
+        );
         let problem =
             Problem::new(problem::DECIMAL_IDENTIFIER, reading.label(decimal.parameter, ""), message);
         problems.push(problem.help(decimal.help()));

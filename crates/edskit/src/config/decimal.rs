@@ -35,7 +35,8 @@ impl Decimal {
             10 => value.to_string(),
             _ => return Some(Self { parameter, value, radix, other: None }),
         };
-        let other = i32::from_str_radix(&digits, 16).ok().filter(|number| parameter.values().contain(*number));
+        let other =
+            i32::from_str_radix(&digits, 16).ok().filter(|number| parameter.values().contain(*number));
         Some(Self { parameter, value, radix, other })
     }
 
@@ -56,7 +57,9 @@ impl Decimal {
         let value = self.value;
         match self.other {
             Some(number) => {
-                format!("write `0x{value:X}`, or `0x{number:X}` if the {number:X}h of the manual's notation is meant")
+                format!(
+                    "write `0x{value:X}`, or `0x{number:X}` if the {number:X}h of the manual's notation is meant"
+                )
             }
             None => format!("write `0x{value:X}`"),
         }

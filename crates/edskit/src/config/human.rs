@@ -18,7 +18,10 @@ pub(super) fn write(report: &Report, excerpts: &str, quiet: bool, out: &mut dyn 
         }
     }
     if let Some(reason) = &report.apart {
-        writeln!(out, "\nGateway and governor do not hear each other, so that there is no initialisation: {reason}.")?;
+        writeln!(
+            out,
+            "\nGateway and governor do not hear each other, so that there is no initialisation: {reason}."
+        )?;
         return writeln!(out, "{}", summary(report));
     }
     match report.is_accepted {

@@ -105,13 +105,7 @@ fn agreeing(parameter: Parameter, name: &str, span: Span) -> Result<Parameter, P
     })
 }
 
-fn unknown_number(
-    owner: Owner,
-    digits: &str,
-    number: Option<u16>,
-    span: Span,
-    place: Place,
-) -> Problem {
+fn unknown_number(owner: Owner, digits: &str, number: Option<u16>, span: Span, place: Place) -> Problem {
     let at = |kind, message| Problem::at(kind, span, message);
     if let Some(name) = number.and_then(measured_value).filter(|_| owner == Owner::Gateway) {
         return measured(digits, name, span, place);
@@ -176,7 +170,10 @@ fn unknown_of_governor(
     place: Place,
 ) -> Problem {
     let (unless, brief) = match (other, near) {
-        (Some(other), _) => (format!("; {}, if that was meant", elsewhere(other, place)), name.to_owned()),
+        (Some(other), _) => {
+            let brief = format!("{name} ({other} of the gateway?)");
+            (format!("; {}, if that was meant", elsewhere(other, place)), brief)
+        }
         (None, Some(near)) => (format!(", unless {near} was meant"), format!("{name} ({near}?)")),
         (None, None) => (String::new(), name.to_owned()),
     };
@@ -189,7 +186,9 @@ const NOTHING_FOLLOWS: &str = "the manual of the gateway names none; nothing fol
 
 /// All parameters that are not known of the governor as one, so that a full list of them does not hide the rest.
 pub(crate) fn unknown_in_one(problems: Vec<Problem>) -> Vec<Problem> {
-    let message = |count| format!("the manual of the gateway does not name {count} of these parameters of the governor");
+    let message = |count| {
+        format!("the manual of the gateway does not name {count} of these parameters of the governor")
+    };
     problem::merged(problems, message, "nothing follows from them here; they may stay or be left out")
 }
 

@@ -1,9 +1,9 @@
 //! A parameter file, read: which parameters it sets to what, and where.
 
-use super::problem::{self, Problem};
-use super::other_file;
-use super::signals::{Declared, KnownSignals, TYPES};
 use super::key::Place;
+use super::other_file;
+use super::problem::{self, Problem};
+use super::signals::{Declared, KnownSignals, TYPES};
 use super::typed::amend;
 use super::{key, syntax, value};
 use crate::printable;
@@ -230,7 +230,8 @@ impl Reading {
 fn bit_of_the_manual(number: u16, declared: &Declared) -> Option<Problem> {
     let is_bit = NamedSignals.signal_type(number) == Some(SignalType::Bit);
     let name = signal_name(number).filter(|_| is_bit && declared.signal_type != SignalType::Bit)?;
-    let message = format!("{number} {name} is a single bit, as the manual of the gateway says, whatever stands here");
+    let message =
+        format!("{number} {name} is a single bit, as the manual of the gateway says, whatever stands here");
     let problem = Problem::at(problem::INVALID_SIGNAL, declared.type_span, message);
     let help = "a TPDO cannot carry it (4.1.2); leave the description out";
     Some(problem.severity(Severity::Warning).help(help))
@@ -292,7 +293,8 @@ pub(crate) fn parameters_of(
 
 /// One parameter under two of its numbers, with two values (GW-NOTE-37).
 fn two_values(first: &Setting, second: &Setting) -> Problem {
-    let of = |setting: &Setting| format!("{} is {}", setting.parameter, setting.parameter.amount(setting.value));
+    let of =
+        |setting: &Setting| format!("{} is {}", setting.parameter, setting.parameter.amount(setting.value));
     let message = format!("{}, and {}: the two are one parameter of the governor", of(first), of(second));
     let problem = Problem::at(problem::DUPLICATE_KEY, second.span, message);
     problem.label(first.span, "the first number").help("keep the one that your governor has")
@@ -302,7 +304,8 @@ fn two_values(first: &Setting, second: &Setting) -> Problem {
 fn dotted_key(parameter: Parameter, value: &DeValue<'_>, key_span: Span, text: &str) -> Option<Problem> {
     let DeValue::Table(table) = value else { return None };
     let [(name, _, value)] = entries(table)[..] else { return None };
-    let written = text.get(value.span()).unwrap_or_default();
+    let has_point = text.get(key_span.end as usize..).is_some_and(|rest| rest.trim_start().starts_with('.'));
+    let written = text.get(value.span()).filter(|_| has_point)?;
     let number = parameter.number();
     let message = format!("`{number}.{name}` is two keys to TOML, and no parameter");
     let problem = Problem::at(problem::MANUAL_NOTATION, key_span, message);

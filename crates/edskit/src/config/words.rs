@@ -10,7 +10,8 @@ pub(crate) fn milliseconds(micros: u32) -> String {
 
 /// Why gateway and governor do not hear each other with these parameters; `None` where they do (GW-CFG-48).
 pub(crate) fn apart(configuration: &Configuration) -> Option<String> {
-    let is = |parameter: Parameter| format!("{parameter} is {}", parameter.amount(configuration.get(parameter)));
+    let is =
+        |parameter: Parameter| format!("{parameter} is {}", parameter.amount(configuration.get(parameter)));
     let reasons = configuration.hindrances().map(|hindrance| match hindrance {
         Hindrance::SwitchedOff(parameter) => is(parameter),
         Hindrance::NodeNumbers { gateway, governor } | Hindrance::BitRates { gateway, governor } => {

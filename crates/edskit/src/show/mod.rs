@@ -20,7 +20,8 @@ pub(crate) fn run(arguments: &ShowArguments, streams: &mut Streams) -> io::Resul
     let sheet = files::read_datasheet(&arguments.file, streams)?;
     if is_no_device(&sheet) {
         let reason = files::own_file(sheet.document().to_bytes());
-        let reason = reason.unwrap_or_else(|| "this is no EDS or DCF; `edskit lint` says what it is".to_owned());
+        let reason =
+            reason.unwrap_or_else(|| "this is no EDS or DCF; `edskit lint` says what it is".to_owned());
         streams.complain(format_args!("{name}: {reason}"));
         return Ok(Exit::Failed);
     }

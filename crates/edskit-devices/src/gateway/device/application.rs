@@ -128,7 +128,8 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
 impl<G: Governor, S: Storage> Plant<G, S> {
     /// 1001h: bit 0 for any error of the gateway, bit 4 for one of communication (GW-NOTE-36).
     fn error_register(&self) -> u8 {
-        let generic = self.gateway.errors.present().next().is_some() || !self.gateway.eeprom_errors.is_empty();
+        let generic =
+            self.gateway.errors.present().next().is_some() || !self.gateway.eeprom_errors.is_empty();
         let communication = self.gateway.can_open.iter().any(|error| error.is_of_communication());
         u8::from(generic) | u8::from(communication) << 4
     }

@@ -145,13 +145,16 @@ fn internal_value(parameter: Parameter, parameters: &Configuration) -> u16 {
 impl<G: Governor, S: Storage> Plant<G, S> {
     /// The gateway's program starts with what it has stored, as far as its pages are good (9.4; GW-APP-35).
     fn start_gateway(&mut self, now: Instant) {
-        let found = self.gateway.eeprom_errors;
+        let found = self.gateway.eeprom_code.of_program();
+        self.gateway.eeprom_errors = found;
         match found.loses_parameters() {
             true => self.parameters.start_with_defaults(Owner::Gateway),
             false => self.parameters.start(Owner::Gateway),
         }
         self.gateway.start(now, self.faults.has(super::Fault::GatewayCanBus2));
-        if found.clears_error_memory() && self.gateway.errors.clear_counters(&mut self.gateway.storage).is_err() {
+        if found.clears_error_memory()
+            && self.gateway.errors.clear_counters(&mut self.gateway.storage).is_err()
+        {
             self.events.push(super::Event::NotStored);
         }
         self.events.push(super::Event::Started(Owner::Gateway));

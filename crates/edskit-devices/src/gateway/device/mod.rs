@@ -171,10 +171,11 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         if unit == Owner::Governor {
             return;
         }
+        // The bootloader finds its own page at once, the program the others when it starts.
         let found = self.plant.gateway.eeprom_code;
-        self.plant.gateway.eeprom_errors = found;
         if found.holds_in_bootloader() {
             self.plant.gateway.unit.hold();
+            self.plant.gateway.eeprom_errors = found;
             self.plant.events.push(Event::EepromErrors(found));
         }
     }

@@ -2,8 +2,8 @@
 
 use super::super::agreement::GOVERNOR_NUMBER;
 use super::super::amount::Amount;
-use super::super::configuration::Configuration;
 use super::super::check::INITIALISATION_ATTEMPTS;
+use super::super::configuration::Configuration;
 use super::super::control_unit::ControlUnit;
 use super::super::eeprom::EepromErrors;
 use super::super::error::{CanOpenError, CanOpenErrors, GatewayError};
@@ -131,11 +131,13 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         let apart = || plant.parameters.effective().hindrances().next().map(|_| Standstill::Apart);
         let fault = || plant.faults.iter().find(|fault| fault.breaks_link()).map(Standstill::Fault);
         let reason = unit.or_else(apart).or_else(fault).or_else(|| plant.blocking_error());
-        Some(reason.unwrap_or(match (plant.governor.attempts >= INITIALISATION_ATTEMPTS, plant.governor.refusal) {
-            (true, Some(refusal)) => Standstill::Refused(refusal),
-            (true, None) => Standstill::Commanded,
-            (false, _) => Standstill::Initialising,
-        }))
+        Some(reason.unwrap_or(
+            match (plant.governor.attempts >= INITIALISATION_ATTEMPTS, plant.governor.refusal) {
+                (true, Some(refusal)) => Standstill::Refused(refusal),
+                (true, None) => Standstill::Commanded,
+                (false, _) => Standstill::Initialising,
+            },
+        ))
     }
 
     /// The faults that last.
@@ -231,7 +233,9 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
                 };
                 Some(Amount::new(i32::try_from(value?).ok()?, quantity))
             }
-            Owner::Governor => self.shown_by_governor(number).map(|value| Amount::new(value, Quantity::Number)),
+            Owner::Governor => {
+                self.shown_by_governor(number).map(|value| Amount::new(value, Quantity::Number))
+            }
         }
     }
 
@@ -244,7 +248,8 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         let value = || self.governor().value(number);
         Some(match (number, signal_type) {
             (3000..=3095, SignalType::Bit) => {
-                let errors = self.plant.inputs().errors() | self.governor().errors() | self.plant.governor_errors();
+                let errors =
+                    self.plant.inputs().errors() | self.governor().errors() | self.plant.governor_errors();
                 i32::from(errors >> (number - 3000) & 1 == 1)
             }
             (_, SignalType::I8 | SignalType::I16) => i32::from(value() as i16),

@@ -139,7 +139,8 @@ pub(crate) fn merged(problems: Vec<Problem>, message: impl Fn(usize) -> String, 
         names.push(format!("and {} more", count - NAMED));
     }
     let message = format!("{}: {}", message(count), names.join(", "));
-    let places = rest.iter().take(SHOWN - 1).map(|problem| Label { span: problem.span(), text: String::new() });
+    let places =
+        rest.iter().take(SHOWN - 1).map(|problem| Label { span: problem.span(), text: String::new() });
     let place = Label { span: first.span(), text: "the first one".to_owned() };
     let problem = Problem::new(first.kind, place, message).severity(first.severity);
     others.push(problem.labels(places).help(help));

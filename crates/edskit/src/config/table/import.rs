@@ -70,7 +70,8 @@ impl Made {
             Line::Row(row) => only_owner(row),
             _ => None,
         });
-        let (of_gateway, of_governor): (Vec<Owner>, Vec<Owner>) = owners.partition(|owner| *owner == Owner::Gateway);
+        let (of_gateway, of_governor): (Vec<Owner>, Vec<Owner>) =
+            owners.partition(|owner| *owner == Owner::Gateway);
         let usual = if of_governor.len() > of_gateway.len() { Owner::Governor } else { Owner::Gateway };
         let mut table = Table { text, unit, usual, problems: Vec::new() };
         for (content, line) in lines {
@@ -118,10 +119,14 @@ impl Made {
         let find = |owner| key::parameter(owner, &row.key(), Span::at(0), Place::File).ok();
         match (find(table.usual), find(other)) {
             (Some(own), Some(others)) if self.has(own) && !self.has(others) => {
-                let message = format!("{others} stands here for the second time, and is taken for that of the other unit");
+                let message = format!(
+                    "{others} stands here for the second time, and is taken for that of the other unit"
+                );
                 let span = table.span(if row.number.is_empty() { row.name } else { row.number }, "");
                 let problem = Problem::at(problem::DUPLICATE_KEY, span, message).severity(Severity::Info);
-                table.problems.push(problem.help("a line `[gateway]` or `[governor]` before its rows says whose they are"));
+                table.problems.push(
+                    problem.help("a line `[gateway]` or `[governor]` before its rows says whose they are"),
+                );
                 other
             }
             _ => table.usual,
@@ -153,7 +158,11 @@ impl Made {
     fn summary(&self) -> String {
         let count = |owner| self.settings.iter().filter(|(parameter, _)| parameter.owner() == owner).count();
         let (of_gateway, of_governor) = (count(Owner::Gateway), count(Owner::Governor));
-        let rows = if self.kept == 1 { "1 row is kept as a remark".to_owned() } else { format!("{} rows are kept as remarks", self.kept) };
+        let rows = if self.kept == 1 {
+            "1 row is kept as a remark".to_owned()
+        } else {
+            format!("{} rows are kept as remarks", self.kept)
+        };
         format!("{of_gateway} parameters of the gateway, {of_governor} of the governor; {rows}")
     }
 }
@@ -172,7 +181,9 @@ impl Table<'_> {
 fn entry(table: &mut Table<'_>, owner: Owner, row: &Row<'_>) -> Result<(Parameter, String), Option<Problem>> {
     let key_span = table.span(if row.name.is_empty() { row.number } else { row.name }, row.number);
     let parameter = key::parameter(owner, &row.key(), key_span, Place::File).map_err(|problem| {
-        let is_unknown = [problem::UNKNOWN_PARAMETER, problem::MEASURED_VALUE].map(|kind| kind.code).contains(&problem.kind.code);
+        let is_unknown = [problem::UNKNOWN_PARAMETER, problem::MEASURED_VALUE]
+            .map(|kind| kind.code)
+            .contains(&problem.kind.code);
         (!is_unknown).then_some(problem)
     })?;
     let at = table.span(row.value, if row.number.is_empty() { row.name } else { row.number });

@@ -36,7 +36,8 @@ fn write(text: &str, output: Option<&Path>, streams: &mut Streams) -> io::Result
             streams.stdout.write_all(text.as_bytes())?;
             streams.stdout.flush()
         }
-        Some(path) => fs::write(path, text)
-            .map_err(|error| io::Error::new(error.kind(), files::unreadable(&path.to_string_lossy(), &error))),
+        Some(path) => fs::write(path, text).map_err(|error| {
+            io::Error::new(error.kind(), files::unreadable(&path.to_string_lossy(), &error))
+        }),
     }
 }

@@ -126,9 +126,16 @@ mod tests {
 
     #[test]
     fn units_are_told_by_titles_and_names() {
-        let units: Vec<Line<'_>> =
-            lines("[gateway];;;\nDigitalregler\nGateway:\n# remark\n").into_iter().map(|(_, line)| line).collect();
-        let expected = [Line::Unit(Owner::Gateway), Line::Unit(Owner::Governor), Line::Unit(Owner::Gateway), Line::Remark];
+        let units: Vec<Line<'_>> = lines("[gateway];;;\nDigitalregler\nGateway:\n# remark\n")
+            .into_iter()
+            .map(|(_, line)| line)
+            .collect();
+        let expected = [
+            Line::Unit(Owner::Gateway),
+            Line::Unit(Owner::Governor),
+            Line::Unit(Owner::Gateway),
+            Line::Remark,
+        ];
         assert_eq!(units, expected);
         for (line, owner) in [
             ("16404;CanOpTPDO5-16ID(0);282;Hex", Some(Owner::Gateway)),

@@ -34,7 +34,8 @@ fn is_entry(text: &str) -> bool {
 fn needless_commas(entries: &[Range<usize>], bad: &[bool]) -> Vec<Range<usize>> {
     let last_good = bad.iter().rposition(|is_bad| !is_bad);
     let commas = entries.windows(2).enumerate().map(|(nth, pair)| (nth, pair[0].end..pair[1].start));
-    let is_needless = |(nth, _): &(usize, Range<usize>)| bad[*nth] || last_good.is_none_or(|last| *nth >= last);
+    let is_needless =
+        |(nth, _): &(usize, Range<usize>)| bad[*nth] || last_good.is_none_or(|last| *nth >= last);
     commas.filter(is_needless).map(|(_, range)| range).collect()
 }
 
@@ -128,7 +129,9 @@ fn entries(text: &str, inside: Range<usize>) -> Vec<Range<usize>> {
         let content = text[piece].trim();
         let range = range_in(text, content);
         match entries.last_mut() {
-            Some(last) if is_rest_of_number(content) && ends_with_digit(&text[last.clone()]) => last.end = range.end,
+            Some(last) if is_rest_of_number(content) && ends_with_digit(&text[last.clone()]) => {
+                last.end = range.end
+            }
             _ => entries.push(range),
         }
     }
@@ -182,7 +185,13 @@ mod tests {
 
     #[test]
     fn braces_without_an_end_do_no_harm() {
-        for text in ["gateway = {", "gateway = { 1 = \"", "gateway = { [ } 400 = 1,5", "governor={ä = 1 ü,}", "gateway = {,,}"] {
+        for text in [
+            "gateway = {",
+            "gateway = { 1 = \"",
+            "gateway = { [ } 400 = 1,5",
+            "governor={ä = 1 ü,}",
+            "gateway = {,,}",
+        ] {
             assert_eq!(left(text).len(), text.len());
         }
     }

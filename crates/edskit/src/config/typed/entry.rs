@@ -50,7 +50,13 @@ fn written(content: &str) -> Option<Written<'_>> {
     let entry = divided(content, '=').map(|sides| (Form::Entry, sides));
     let entry = entry.or_else(|| divided(content, ':').map(|sides| (Form::Colon, sides)));
     if let Some((form, (key, value))) = entry {
-        let is_plausible = !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || " \t_-().[],;:\"'\\\u{A0}".contains(c));
+        // A second sign is one too many.
+        let (form, value) = match value.strip_prefix('=') {
+            Some(value) => (Form::Colon, value.trim()),
+            None => (form, value),
+        };
+        let is_plausible = !key.is_empty()
+            && key.chars().all(|c| c.is_alphanumeric() || " \t_-().[],;:\"'\\\u{A0}".contains(c));
         return is_plausible.then(|| Written {
             key: unquoted(key).to_owned(),
             key_text: key,
@@ -89,7 +95,12 @@ fn without_remark(value: &str) -> &str {
     if value.starts_with(['"', '\'']) { value } else { value.split('#').next().unwrap_or_default().trim() }
 }
 
-fn parameter(owner: Owner, written: &Written<'_>, spans: impl Fn(&str) -> Span, place: Place) -> Option<Problem> {
+fn parameter(
+    owner: Owner,
+    written: &Written<'_>,
+    spans: impl Fn(&str) -> Span,
+    place: Place,
+) -> Option<Problem> {
     // Brackets stand for parentheses where somebody thinks of a list.
     let name = written.key.replace('[', "(").replace(']', ")");
     let parameter = match key::parameter(owner, &name, spans(written.key_text), place) {
@@ -103,7 +114,10 @@ fn parameter(owner: Owner, written: &Written<'_>, spans: impl Fn(&str) -> Span, 
         return Some(match typed.beyond {
             Some(beyond) => value::out_of_range(parameter, Some(beyond), at),
             None => {
-                let message = format!("`{}` is no value of {parameter}", written.value);
+                let message = match written.value.as_str() {
+                    "" => format!("{parameter} has no value"),
+                    value => format!("`{value}` is no value of {parameter}"),
+                };
                 Problem::at(problem::WRONG_TYPE, at, message).help(value::allowed(parameter))
             }
         });
@@ -121,8 +135,12 @@ fn parameter(owner: Owner, written: &Written<'_>, spans: impl Fn(&str) -> Span, 
     let value_is_bad = !super::is_toml(&format!("a = {}", written.value));
     let (at, message) = match (written.form, value_is_bad) {
         (Form::Row, _) => (spans(written.key_text), "this is a row of a table, and no entry".to_owned()),
-        (Form::Colon, _) => (spans(written.key_text), "an entry has `=` between its key and its value".to_owned()),
-        (Form::Entry, true) if reasons.is_empty() => (at, format!("`{}` is no number of TOML", written.value)),
+        (Form::Colon, _) => {
+            (spans(written.key_text), "an entry has `=` between its key and its value".to_owned())
+        }
+        (Form::Entry, true) if reasons.is_empty() => {
+            (at, format!("`{}` is no number of TOML", written.value))
+        }
         (Form::Entry, true) => (at, format!("`{}` is written with {reasons}", written.value)),
         (Form::Entry, false) => (
             spans(written.key_text),

@@ -12,7 +12,8 @@ pub(super) fn bad_entries(text: &str) -> Vec<(Bad, Vec<Range<usize>>)> {
         let content = line.trim_start_matches('\u{FEFF}').trim();
         if let Some(name) = header(content) {
             part = part_of(name);
-        } else if part != Part::Other && !content.is_empty() && !content.starts_with('#') && !is_toml(content) {
+        } else if part != Part::Other && !content.is_empty() && !content.starts_with('#') && !is_toml(content)
+        {
             let range = range_in(text, content);
             found.push((Bad { range: range.clone(), part }, vec![range]));
         }

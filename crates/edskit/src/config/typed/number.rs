@@ -63,7 +63,8 @@ pub(crate) fn read(parameter: Parameter, text: &str) -> Typed {
 /// The value without remarks, quotation marks and characters that only look like those of a keyboard.
 fn tidied(text: &str, reasons: &mut Vec<&'static str>) -> String {
     const DASHES: [char; 4] = ['\u{2212}', '\u{2013}', '\u{2014}', '\u{2010}'];
-    const QUOTES: [char; 9] = ['"', '\'', '\u{201C}', '\u{201D}', '\u{201E}', '\u{2018}', '\u{2019}', '\u{AB}', '\u{BB}'];
+    const QUOTES: [char; 9] =
+        ['"', '\'', '\u{201C}', '\u{201D}', '\u{201E}', '\u{2018}', '\u{2019}', '\u{AB}', '\u{BB}'];
     let mut body = text.trim();
     for mark in ["#", ";", "//", " ("] {
         if let Some((before, _)) = body.split_once(mark).filter(|(before, _)| !before.trim().is_empty()) {
@@ -76,15 +77,19 @@ fn tidied(text: &str, reasons: &mut Vec<&'static str>) -> String {
     if body.contains(DASHES) {
         reasons.push("a dash instead of a minus");
     }
-    let body: String = body.trim_matches(QUOTES).chars().map(|character| match character {
-        _ if DASHES.contains(&character) => '-',
-        // Letters of another alphabet, which a PDF may hold for those of `Hex`.
-        '\u{41D}' => 'H',
-        '\u{435}' => 'e',
-        '\u{445}' => 'x',
-        _ if character.is_whitespace() => ' ',
-        _ => character,
-    }).collect();
+    let body: String = body
+        .trim_matches(QUOTES)
+        .chars()
+        .map(|character| match character {
+            _ if DASHES.contains(&character) => '-',
+            // Letters of another alphabet, which a PDF may hold for those of `Hex`.
+            '\u{41D}' => 'H',
+            '\u{435}' => 'e',
+            '\u{445}' => 'x',
+            _ if character.is_whitespace() => ' ',
+            _ => character,
+        })
+        .collect();
     body.trim().to_owned()
 }
 
@@ -187,8 +192,14 @@ fn factor(quantity: Quantity, unit: &str) -> Option<f64> {
         (Quantity::Seconds, "ms") => 1e-3,
         (Quantity::Milliseconds, "ms" | "msec" | "millisekunden" | "milliseconds") => 1.0,
         (Quantity::Milliseconds, "s" | "sec" | "sek") => 1e3,
-        (Quantity::KbitPerSecond, "k" | "kbit/s" | "kbits/s" | "kbaud" | "kbd" | "kbps" | "kb/s" | "kbit") => 1.0,
-        (Quantity::KbitPerSecond, "m" | "mbit/s" | "mbits/s" | "mbaud" | "mbd" | "mbps" | "mb/s" | "mbit") => 1e3,
+        (
+            Quantity::KbitPerSecond,
+            "k" | "kbit/s" | "kbits/s" | "kbaud" | "kbd" | "kbps" | "kb/s" | "kbit",
+        ) => 1.0,
+        (
+            Quantity::KbitPerSecond,
+            "m" | "mbit/s" | "mbits/s" | "mbaud" | "mbd" | "mbps" | "mb/s" | "mbit",
+        ) => 1e3,
         (Quantity::KbitPerSecond, "bit/s" | "bits/s" | "baud" | "bd" | "bps") => 1e-3,
         _ => return None,
     })
@@ -216,10 +227,29 @@ mod tests {
 
     #[test]
     fn identifiers_are_hexadecimal_however_they_are_marked() {
-        for text in ["57F", "57f", "57Fh", "57F h", "57F Hex", "57F \u{41D}\u{435}\u{445}", "0x57F", "0X57F", "057F", "$57F", "Hex 57F", "\"57F\"", "57F # TPDO16", "57F ; TPDO16", "57F (TPDO16)"] {
+        for text in [
+            "57F",
+            "57f",
+            "57Fh",
+            "57F h",
+            "57F Hex",
+            "57F \u{41D}\u{435}\u{445}",
+            "0x57F",
+            "0X57F",
+            "057F",
+            "$57F",
+            "Hex 57F",
+            "\"57F\"",
+            "57F # TPDO16",
+            "57F ; TPDO16",
+            "57F (TPDO16)",
+        ] {
             assert_eq!(toml(16404, text), ["0x57F"], "{text}");
         }
-        assert_eq!([toml(16404, "5E2"), toml(16404, "1e3"), toml(16404, "0b1")], [["0x5E2"], ["0x1E3"], ["0xB1"]]);
+        assert_eq!(
+            [toml(16404, "5E2"), toml(16404, "1e3"), toml(16404, "0b1")],
+            [["0x5E2"], ["0x1E3"], ["0xB1"]]
+        );
         let parameter = Parameter::find(Owner::Gateway, 16404).unwrap();
         assert_eq!((toml(16404, "FFFF"), read(parameter, "FFFF").beyond), (vec![], Some(0xFFFF)));
         assert_eq!((toml(16404, "xyz"), read(parameter, "xyz").beyond), (vec![], None));

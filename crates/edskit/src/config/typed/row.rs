@@ -113,7 +113,10 @@ mod tests {
         let row = |number, name, value, unit| Some(Row { number, name, value, unit });
         for (line, expected) in [
             ("427;CanOpenMyNodeID;1;", row("427", "CanOpenMyNodeID", "1", "")),
-            ("\"400\"\t\"CanStartTimeOutDelay\"\t\"1,0\"\t\"s\"", row("400", "CanStartTimeOutDelay", "1,0", "s")),
+            (
+                "\"400\"\t\"CanStartTimeOutDelay\"\t\"1,0\"\t\"s\"",
+                row("400", "CanStartTimeOutDelay", "1,0", "s"),
+            ),
             ("16404 | CanOpTPDO5-16ID(0) | 57F | Hex", row("16404", "CanOpTPDO5-16ID(0)", "57F", "Hex")),
             ("835;-5", row("835", "", "-5", "")),
             ("7;\"a;b\";3;", row("7", "a;b", "3", "")),
@@ -136,6 +139,9 @@ mod tests {
             assert_eq!(Row::of_words(line), expected, "{line}");
         }
         assert_eq!(Row::of_cells("427 CanOpenMyNodeID 1"), None);
-        assert_eq!((Row::of_words("== x"), Row::of_words("Parametrierbeispiel:"), Row::of_words("")), (None, None, None));
+        assert_eq!(
+            (Row::of_words("== x"), Row::of_words("Parametrierbeispiel:"), Row::of_words("")),
+            (None, None, None)
+        );
     }
 }

@@ -3,8 +3,8 @@
 use super::scenario::Action;
 use super::scenario::words::{UNITS, word_for};
 use edskit_devices::gateway::{
-    Amount, CanOpenError, EepromErrors, Event, GatewayError, INITIALISATION_ATTEMPTS, Owner, Parameter, Period,
-    measured_value,
+    Amount, CanOpenError, EepromErrors, Event, GatewayError, INITIALISATION_ATTEMPTS, Owner, Parameter,
+    Period, measured_value,
 };
 use edskit_runtime::Microseconds;
 use serde::Serialize;

@@ -158,7 +158,11 @@ fn a_faulty_canopen_bus_is_tried_every_half_second() {
         assert_eq!(can_open(&bench), [12423]);
         remove(&mut bench, Fault::GatewayCanBus2);
         let sent = bench.pass(1_000_000);
-        assert_eq!(sent.first(), Some(&(250_000, frame(0x701, &[state]))), "the next attempt finds it in order");
+        assert_eq!(
+            sent.first(),
+            Some(&(250_000, frame(0x701, &[state]))),
+            "the next attempt finds it in order"
+        );
         assert!(
             sent[1..].iter().all(|(_, frame)| frame.data() == [0x7F]),
             "it is not initialised anew: {sent:?}"
@@ -191,7 +195,11 @@ fn an_overflow_of_the_canopen_buffer_of_the_heinzmann_side() {
     inject(&mut bench, Fault::CanOpenBuffer1);
     assert_eq!((bench.gateway.state(), can_open(&bench)), (State::Undefined, [12422].into()));
     assert_eq!(errors(&bench), [3071, 3074], "and not 3073");
-    assert_eq!([2401, 2402].map(|number| bench.gateway.measured(number)), [Some(0); 2], "it is another buffer");
+    assert_eq!(
+        [2401, 2402].map(|number| bench.gateway.measured(number)),
+        [Some(0); 2],
+        "it is another buffer"
+    );
     assert!(bench.gateway.faults().next().is_none(), "it is over at once");
     boots_up(&mut bench);
     assert_eq!(bench.read(0x2005, 0), Ok(1 << 11));

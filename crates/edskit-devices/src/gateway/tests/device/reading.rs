@@ -87,5 +87,8 @@ fn a_full_stack_has_nothing_free() {
     let mut bench = Bench::new(&[]);
     let now = bench.now;
     bench.gateway.inject(now, Fault::Stack);
-    assert_eq!([3093, 3897, 3898].map(|number| shown(&bench, Owner::Gateway, number)), [Some(1), Some(0), Some(0)]);
+    assert_eq!(
+        [3093, 3897, 3898].map(|number| shown(&bench, Owner::Gateway, number)),
+        [Some(1), Some(0), Some(0)]
+    );
 }

@@ -137,7 +137,11 @@ fn operational_again_sends_what_has_changed() {
         assert_eq!(again(&mut bench), [], "nothing has changed");
         bench.nmt(command);
         bench.gateway.governor_mut().set_error(3001, true);
-        assert_eq!(again(&mut bench), [0x181, 0x381], "an error, and the status that shows that there is one");
+        assert_eq!(
+            again(&mut bench),
+            [0x181, 0x381],
+            "an error, and the status that shows that there is one"
+        );
         // It comes and goes while nothing may be sent.
         bench.nmt(command);
         bench.gateway.governor_mut().set_error(3002, true);
@@ -194,7 +198,8 @@ fn bits_of_the_governor_are_left_out() {
 // GW-PDO-19, GW-PDO-06, GW-PDO-07
 #[test]
 fn parameters_of_the_governor_are_sent_with_their_values() {
-    let settings = [(16400, 827), (16401, 400), (16402, 16460), (16403, 401), (16460, 16), (827, -5), (401, 1)];
+    let settings =
+        [(16400, 827), (16401, 400), (16402, 16460), (16403, 401), (16460, 16), (827, -5), (401, 1)];
     let mut bench = Bench::started(&governor(&settings));
     bench.pass(DC);
     // -5 has a sign, so that it is in 2002h; 1.0 s are 100 steps of 10 ms.

@@ -41,7 +41,7 @@ pub(super) enum Action {
     /// The supply voltage, in mV.
     Supply(u16),
     /// What the next start finds in the EEPROM: the bits of 3099.
-    Eeprom(u16),
+    Eeprom(u8),
     /// The governor's own speed setpoint, in 1/min.
     Setpoint(u16),
     /// The engine's load, in 0.1 %.
@@ -99,7 +99,7 @@ impl Action {
             Self::Set(parameter, value) => format!("{parameter} = {}", parameter.amount(value)),
             Self::Tool(identifier) => identifier.to_string(),
             Self::Supply(millivolts) => format!("{} V", f64::from(millivolts) / 1000.0),
-            Self::Eeprom(code) => format!("{code:04X}h"),
+            Self::Eeprom(code) => format!("{code:02X}h"),
             Self::Setpoint(speed) => format!("setpoint = {speed}/min"),
             Self::Load(load) => format!("load = {} %", f64::from(load) / 10.0),
             Self::Running(is_running) => format!("running = {is_running}"),

@@ -4,7 +4,9 @@ use super::value::Value;
 use super::words::{UNITS, word_for};
 use crate::config::problem::{Problem, UNKNOWN_PARAMETER, WRONG_TYPE};
 use crate::config::{KnownSignals, span, what_is};
-use edskit_devices::gateway::{MEASURED_VALUES, Owner, Parameter, measured_value, measured_value_by_name, signal_name};
+use edskit_devices::gateway::{
+    MEASURED_VALUES, Owner, Parameter, measured_value, measured_value_by_name, signal_name,
+};
 use edskit_lint::{Severity, nearest};
 use toml::de::DeValue;
 
@@ -19,7 +21,9 @@ pub(super) fn shown(unit: Owner, value: &Value<'_>, signals: &KnownSignals) -> R
         DeValue::String(text) => text.trim().to_owned(),
         other => {
             let message = format!("a value is read by its number, and this is {}", what_is(other));
-            return Err(Problem::at(WRONG_TYPE, place, message).help("write `2411`, or `\"CanDCNodeState15to01\"`"));
+            return Err(
+                Problem::at(WRONG_TYPE, place, message).help("write `2411`, or `\"CanDCNodeState15to01\"`")
+            );
         }
     };
     let body = written.strip_prefix(['P', 'p']).unwrap_or(&written);
@@ -34,12 +38,17 @@ pub(super) fn shown(unit: Owner, value: &Value<'_>, signals: &KnownSignals) -> R
         let problem = Problem::at(UNKNOWN_PARAMETER, place, message);
         let digits = digits.parse().ok();
         let problem = match (unit, digits) {
-            (_, Some(UNDESCRIBED)) => problem.help("the manual lists it without a description, so that it has no value here"),
+            (_, Some(UNDESCRIBED)) => {
+                problem.help("the manual lists it without a description, so that it has no value here")
+            }
             (unit, Some(number)) if is_shown(other(unit), number, signals) => {
                 problem.help(format!("the {} has it", word_for(&UNITS, other(unit))))
             }
-            (Owner::Governor, _) => problem.help("describe it in `[governor.signals]` of the parameter file, if the governor has it"),
-            (Owner::Gateway, Some(_)) => problem.help("docs/gateway.md and 11.3 of the manual list what there is"),
+            (Owner::Governor, _) => problem
+                .help("describe it in `[governor.signals]` of the parameter file, if the governor has it"),
+            (Owner::Gateway, Some(_)) => {
+                problem.help("docs/gateway.md and 11.3 of the manual list what there is")
+            }
             (Owner::Gateway, None) => {
                 match nearest(&written, MEASURED_VALUES.iter().map(|(_, name)| *name)) {
                     Some(near) => problem.help(format!("did you mean `{near}`?")),
@@ -65,7 +74,9 @@ fn by_name(unit: Owner, name: &str) -> Option<u16> {
     parameter.or_else(|| match unit {
         Owner::Gateway => measured_value_by_name(name).filter(|number| *number != UNDESCRIBED),
         Owner::Governor => {
-            let is_it = |number: &u16| signal_name(*number).is_some_and(|own| own.to_string().eq_ignore_ascii_case(name));
+            let is_it = |number: &u16| {
+                signal_name(*number).is_some_and(|own| own.to_string().eq_ignore_ascii_case(name))
+            };
             (2000..=12_500).find(is_it)
         }
     })

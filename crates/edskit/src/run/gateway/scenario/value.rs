@@ -58,9 +58,9 @@ const SUPPLY: Scale = Scale {
 const EEPROM: Scale = Scale {
     what: "a whole number",
     low: 0.0,
-    high: 65535.0,
+    high: 255.0,
     steps: 1.0,
-    allowed: "0 to 65535, the bits of 3099",
+    allowed: "0 to 255, the bits of 3099",
 };
 const TOOL: Scale =
     Scale { what: "a whole number", low: 0.0, high: 65535.0, steps: 1.0, allowed: "0 to 65535, as 3850" };
@@ -99,7 +99,7 @@ pub(super) fn actions(
         "read" => return read(key, value, context, problems),
         "store" => units(key, value, Action::Store),
         "supply" => one(number(key, value, &SUPPLY).map(|millivolts| Action::Supply(millivolts as u16))),
-        "eeprom" => one(number(key, value, &EEPROM).map(|code| Action::Eeprom(code as u16))),
+        "eeprom" => one(number(key, value, &EEPROM).map(|code| Action::Eeprom(code as u8))),
         "engine" => return engine(key, value, problems),
         "engine-error" => {
             return each(value, problems, |value| engine_error(key, value, Action::EngineError));

@@ -28,7 +28,11 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, gateway: &LiveGateway, bus
         (state.to_string(), style_of(state)),
         (format!("  node-ID {}", gateway.effective_parameters().node_id()), plain),
         (format!("  {bit_rate}"), plain),
-        if is_online { ("  online".to_owned(), plain) } else { ("  offline".to_owned(), plain.fg(Color::Yellow)) },
+        if is_online {
+            ("  online".to_owned(), plain)
+        } else {
+            ("  offline".to_owned(), plain.fg(Color::Yellow))
+        },
         (format!("  {}.{} s", time.0 / 1_000_000, time.0 / 100_000 % 10), plain),
     ];
     let units = UNITS.map(|(name, unit)| format!("{name} {}", condition(gateway, unit)));

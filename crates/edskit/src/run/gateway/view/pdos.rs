@@ -60,7 +60,9 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, gateway: &LiveGateway, rea
 fn line(cells: [String; 7], columns: u16, style: Style) -> Line<'static> {
     let [name, identifier, set, effective, count, interval, content] = cells;
     let text = match columns >= BEFORE_CONTENT + LEAST_CONTENT {
-        true => format!("{name:<6} {identifier:<6} {set:<6} {effective:<9} {count:<7} {interval:<9} {content}"),
+        true => {
+            format!("{name:<6} {identifier:<6} {set:<6} {effective:<9} {count:<7} {interval:<9} {content}")
+        }
         false => format!("{name:<6} {identifier:<6} {content}"),
     };
     Line::styled(fitting(text.trim_end(), columns), style)
@@ -78,7 +80,11 @@ fn row(gateway: &LiveGateway, pdo: &Pdo, columns: u16) -> Line<'static> {
     if !pdo.activity.is_active() {
         let why = why(gateway.effective_parameters(), pdo);
         let empty = String::new;
-        return line([name, identifier, empty(), empty(), empty(), empty(), why], columns, Style::new().dim());
+        return line(
+            [name, identifier, empty(), empty(), empty(), empty(), why],
+            columns,
+            Style::new().dim(),
+        );
     }
     let (set, effective) = match (pdo.period, pdo.direction) {
         (Some(period), _) => (period.setting_ms.to_string(), milliseconds(period.micros())),
@@ -88,7 +94,11 @@ fn row(gateway: &LiveGateway, pdo: &Pdo, columns: u16) -> Line<'static> {
     let traffic = gateway.traffic(pdo);
     let interval = traffic.interval.map_or(String::new(), |micros| format!("{:.1}", micros as f64 / 1000.0));
     let content = content_of(gateway, pdo, &traffic);
-    line([name, identifier, set, effective, traffic.count.to_string(), interval, content], columns, Style::new())
+    line(
+        [name, identifier, set, effective, traffic.count.to_string(), interval, content],
+        columns,
+        Style::new(),
+    )
 }
 
 /// The words of the last frame with their names; the names alone before the first one.
@@ -110,9 +120,7 @@ fn content_of(gateway: &LiveGateway, pdo: &Pdo, traffic: &Traffic) -> String {
 fn name_of(gateway: &LiveGateway, source: Source) -> String {
     let (configuration, signals) = (gateway.effective_parameters(), &gateway.governor().signals);
     match source {
-        Source::Signal { number, .. } => {
-            signals.name(number).unwrap_or_else(|| number.to_string())
-        }
+        Source::Signal { number, .. } => signals.name(number).unwrap_or_else(|| number.to_string()),
         Source::Errors { first } => format!("errors {first}-{}", first + 15),
         Source::SensorFlags => "sensor flags".to_owned(),
         _ => content(configuration, signals, source),

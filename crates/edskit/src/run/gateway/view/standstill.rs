@@ -10,7 +10,9 @@ use edskit_runtime::Microseconds;
 pub(super) fn reason(gateway: &LiveGateway, since: Microseconds) -> Option<String> {
     let reason = match gateway.standstill()? {
         Standstill::GatewayOff => "the gateway has no supply".to_owned(),
-        Standstill::InBootloader => format!("3099 is {:04X}h: {}", gateway.eeprom_errors().0, gateway.eeprom_errors()),
+        Standstill::InBootloader => {
+            format!("3099 is {:04X}h: {}", gateway.eeprom_errors().0, gateway.eeprom_errors())
+        }
         Standstill::GatewayStarting => "the program of the gateway has not started".to_owned(),
         Standstill::GovernorOff => "the governor, which initialises the gateway, has no supply".to_owned(),
         Standstill::GovernorStarting => "the program of the governor has not started".to_owned(),

@@ -27,9 +27,8 @@ impl Bench {
 
     /// With the texts of the two files.
     fn of(parameters: &[u8], scenario: &[u8]) -> Self {
-        let streams = |input: &[u8]| {
-            Streams::of_buffers(input.to_vec(), Box::new(Vec::new()), Box::new(Vec::new()))
-        };
+        let streams =
+            |input: &[u8]| Streams::of_buffers(input.to_vec(), Box::new(Vec::new()), Box::new(Vec::new()));
         let stdin = Path::new("-");
         let parameters = config::read(stdin, &mut streams(parameters));
         let signals = config::KnownSignals::default();
@@ -143,7 +142,10 @@ fn units_that_disagree() {
         ("node_numbers", "[gateway]\n401 = 2\n402 = 5\n[governor]\n401 = 4\n403 = 1\n"),
         ("bit_rates", "[gateway]\n427 = 5\n416 = 500\n[governor]\n416 = 250\n"),
         ("switched_off", "[governor]\n4406 = 0\n"),
-        ("identifiers", "[gateway]\n427 = 2\n16404 = 0x282\n[governor]\n14401 = 1\n16404 = 2000\n16461 = 100\n"),
+        (
+            "identifiers",
+            "[gateway]\n427 = 2\n16404 = 0x282\n[governor]\n14401 = 1\n16404 = 2000\n16461 = 100\n",
+        ),
     ] {
         for (width, height) in [(80, 24), (110, 30), (200, 60)] {
             let picture = with(parameters, "", 3_000).picture(width, height);
@@ -179,7 +181,8 @@ fn no_error_is_left_out_without_a_sign() {
 // GW-APP-47, GW-APP-48
 #[test]
 fn pages_that_are_bad() {
-    let reset = |code: u16| format!("[[step]]\nat = 1\neeprom = {code}\n[[step]]\nat = 1.1\nreset = \"gateway\"\n");
+    let reset =
+        |code: u16| format!("[[step]]\nat = 1\neeprom = {code}\n[[step]]\nat = 1.1\nreset = \"gateway\"\n");
     for (name, code) in [("serial_number", 8), ("bootloader", 1)] {
         let picture = with("", &reset(code), 2_000).picture(80, 24);
         insta::assert_snapshot!(format!("bad_page_{name}"), picture);
@@ -195,12 +198,24 @@ fn states_are_said_as_they_are() {
     };
     says("", 100, "none while undefined, since 0.0 s: the program of the gateway has not started");
     says("", 220, "none while init, since 0.2 s: the governor initialises the gateway");
-    says("[[step]]\nat = 1\ninject = \"intern\"\n", 5_000, "since 1.0 s: error 3094 ErrIntern: exception of the program");
+    says(
+        "[[step]]\nat = 1\ninject = \"intern\"\n",
+        5_000,
+        "since 1.0 s: error 3094 ErrIntern: exception of the program",
+    );
     says("[[step]]\nat = 1\ncommand = \"undefined\"\n", 2_000, "since 1.0 s: the governor has commanded it");
     says("[[step]]\nat = 1\noff = \"gateway\"\n", 2_000, "since 1.0 s: the gateway has no supply");
-    says("[[step]]\nat = 1\noff = \"governor\"\n", 5_000, ": the governor, which initialises the gateway, has no supply");
+    says(
+        "[[step]]\nat = 1\noff = \"governor\"\n",
+        5_000,
+        ": the governor, which initialises the gateway, has no supply",
+    );
     says("[[step]]\nat = 1\ninject = \"link-broken\"\n", 5_000, ": the fault link-broken lasts");
-    says("[[step]]\nat = 1\ninject = \"governor-can-comm\"\n", 2_000, "since 1.0 s: error 12415 CanOpDCErrCanComm");
+    says(
+        "[[step]]\nat = 1\ninject = \"governor-can-comm\"\n",
+        2_000,
+        "since 1.0 s: error 12415 CanOpDCErrCanComm",
+    );
 }
 
 #[test]

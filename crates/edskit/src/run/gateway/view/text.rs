@@ -74,11 +74,17 @@ mod tests {
             for indent in [0, 4] {
                 let lines = wrapped(text, columns, indent, 1_000);
                 assert_eq!(words(&lines.concat()), words(text), "{columns}");
-                assert!(lines.iter().all(|line| line.chars().count() <= usize::from(columns)), "{columns}: {lines:?}");
+                assert!(
+                    lines.iter().all(|line| line.chars().count() <= usize::from(columns)),
+                    "{columns}: {lines:?}"
+                );
                 let cut = wrapped(text, columns, indent, lines.len() - 1);
                 assert!(cut.is_empty() || cut[cut.len() - 1].ends_with('…'), "{columns}: {cut:?}");
             }
-            let line = fitting_line(vec![("state".to_owned(), Style::new()), ("  node".to_owned(), Style::new())], columns);
+            let line = fitting_line(
+                vec![("state".to_owned(), Style::new()), ("  node".to_owned(), Style::new())],
+                columns,
+            );
             assert_eq!(line.width(), usize::from(columns).min(11), "{columns}");
             assert_eq!(line.to_string().ends_with('…'), columns < 11);
         }
