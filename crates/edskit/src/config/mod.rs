@@ -79,8 +79,11 @@ impl Report {
                 let apart = words::apart(&reading.configuration);
                 let is_accepted = refused.is_empty() && apart.is_none();
                 let restricted = collisions::restricted(&reading, &table);
-                let told: Vec<Parameter> =
-                    refused.iter().chain(&restricted).flat_map(|problem| problem.decimals.clone()).collect();
+                let told: Vec<Parameter> = refused
+                    .iter()
+                    .chain(&restricted)
+                    .flat_map(|problem| problem.decimals.iter().copied())
+                    .collect();
                 let judged = [refused, restricted, advice::of(&reading, &table, &told)];
                 reading.problems.extend(judged.into_iter().flatten());
                 (Some(is_accepted), apart, Some(View::new(&reading, &table)))

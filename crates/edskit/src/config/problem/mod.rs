@@ -44,15 +44,23 @@ pub(crate) struct Problem {
     pub(crate) labels: Vec<Label>,
     pub(crate) help: Option<String>,
     /// The identifiers of whose decimal digits it speaks.
-    pub(crate) decimals: Vec<Parameter>,
+    pub(crate) decimals: Box<[Parameter]>,
     /// How it is called where several of its kind are told in one.
-    brief: Option<String>,
+    brief: Option<Box<str>>,
 }
 
 impl Problem {
     pub(crate) fn new(kind: &'static Kind, place: Label, message: impl Into<String>) -> Self {
         let (severity, message) = (kind.severity, message.into());
-        Self { kind, severity, message, labels: vec![place], help: None, decimals: Vec::new(), brief: None }
+        Self {
+            kind,
+            severity,
+            message,
+            labels: vec![place],
+            help: None,
+            decimals: Box::default(),
+            brief: None,
+        }
     }
 
     /// A problem at a place that needs no words.
@@ -90,13 +98,13 @@ impl Problem {
 
     /// It speaks of the decimal digits of these identifiers.
     pub(crate) fn decimals(mut self, parameters: impl IntoIterator<Item = Parameter>) -> Self {
-        self.decimals.extend(parameters);
+        self.decimals = parameters.into_iter().collect();
         self
     }
 
     /// This one can be told together with others of its kind, and is called so there.
     pub(crate) fn brief(mut self, text: impl Into<String>) -> Self {
-        self.brief = Some(text.into());
+        self.brief = Some(text.into().into_boxed_str());
         self
     }
 

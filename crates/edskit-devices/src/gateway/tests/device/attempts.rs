@@ -15,8 +15,11 @@ fn times(sent: &[(u64, Frame)], expected: &Frame) -> Vec<u64> {
     sent.iter().map(|(time, _)| *time).collect()
 }
 
-/// A cycle of the heartbeat, and what an attempt sends with it.
-fn cycles() -> [(Vec<(Owner, u16, i32)>, Frame); 4] {
+/// Settings, and what an attempt sends with them.
+type Attempt = (Vec<(Owner, u16, i32)>, Frame);
+
+/// Several cycles of the heartbeat.
+fn cycles() -> [Attempt; 4] {
     let heartbeat = frame(0x701, &[0x7F]);
     [
         (gateway(&[(429, 0)]), frame(0x701, &[0])),

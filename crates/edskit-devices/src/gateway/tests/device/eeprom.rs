@@ -12,7 +12,7 @@ fn start(bench: &mut Bench, code: u16) -> Vec<Event> {
 }
 
 fn is_told(events: &[Event], code: u16) -> bool {
-    events.iter().any(|event| *event == Event::EepromErrors(EepromErrors(code)))
+    events.contains(&Event::EepromErrors(EepromErrors(code)))
 }
 
 // GW-APP-47, GW-APP-35
