@@ -9,6 +9,7 @@ mod generate;
 mod help;
 mod lint;
 mod neighbours;
+mod own_files;
 mod profiles;
 mod run;
 mod settings;

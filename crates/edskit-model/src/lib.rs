@@ -12,6 +12,7 @@ mod document;
 mod format;
 mod key;
 pub mod nature;
+pub mod own_file;
 mod section;
 mod span;
 mod value;

@@ -1,6 +1,6 @@
 //! An EDS or DCF with the side-file beside it (docs/generating.md).
 
-use crate::files::unreadable;
+use crate::files::{own_file, unreadable};
 use crate::{Streams, printable};
 use edskit_codegen::{Naming, Problem};
 use std::fs;
@@ -21,6 +21,9 @@ impl DeviceFile {
     pub(crate) fn read(eds: &Path, side_file: Option<&Path>) -> Result<Self, String> {
         let mut naming = Naming::of(&eds.to_string_lossy());
         let bytes = fs::read(eds).map_err(|error| unreadable(&naming.eds, &error))?;
+        if let Some(reason) = own_file(&bytes) {
+            return Err(format!("{}: {reason}", naming.eds));
+        }
         if let Some(side_file) = side_file {
             naming.side_file = side_file.to_string_lossy().into_owned();
         }

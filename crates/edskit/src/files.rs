@@ -2,6 +2,7 @@
 
 use crate::Streams;
 use edskit_model::Datasheet;
+use edskit_model::own_file::OwnFile;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -104,6 +105,12 @@ pub(crate) fn read(path: &Path, streams: &mut Streams) -> io::Result<Vec<u8>> {
         return Ok(bytes);
     }
     fs::read(path).map_err(|error| io::Error::new(error.kind(), unreadable(&path.to_string_lossy(), &error)))
+}
+
+/// What a file of edskit itself is, and which command takes it; `None` for other files.
+pub(crate) fn own_file(bytes: &[u8]) -> Option<String> {
+    let own = OwnFile::of(std::str::from_utf8(bytes).ok()?)?;
+    Some(format!("this is {}: {}", own.name(), own.command()))
 }
 
 /// Why a file could not be read.
