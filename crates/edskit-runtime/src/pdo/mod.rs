@@ -35,17 +35,23 @@ pub(crate) struct Place {
 }
 
 impl Place {
+    /// The PDO whose parameter is at an index, and whether that is the mapping.
+    pub(crate) fn at(index: Index) -> Option<(Self, bool)> {
+        let communication = Self::of_communication(index).map(|place| (place, false));
+        communication.or_else(|| Self::of_mapping(index).map(|place| (place, true)))
+    }
+
     /// The PDO whose communication parameter is at an index.
-    pub(crate) fn of_communication(index: Index) -> Option<Self> {
-        Self::at(index, Index::RPDO_COMMUNICATION, Index::TPDO_COMMUNICATION)
+    fn of_communication(index: Index) -> Option<Self> {
+        Self::among(index, Index::RPDO_COMMUNICATION, Index::TPDO_COMMUNICATION)
     }
 
     /// The PDO whose mapping parameter is at an index.
-    pub(crate) fn of_mapping(index: Index) -> Option<Self> {
-        Self::at(index, Index::RPDO_MAPPING, Index::TPDO_MAPPING)
+    fn of_mapping(index: Index) -> Option<Self> {
+        Self::among(index, Index::RPDO_MAPPING, Index::TPDO_MAPPING)
     }
 
-    fn at(index: Index, receive: Index, transmit: Index) -> Option<Self> {
+    fn among(index: Index, receive: Index, transmit: Index) -> Option<Self> {
         let within = |first: Index| index.0.checked_sub(first.0).filter(|number| *number < MOST_PDOS);
         let direction = |direction| move |number| Self { direction, number };
         within(receive)
@@ -75,7 +81,8 @@ impl Place {
 struct Parameters {
     /// Its number from 1; 0 for a place that no PDO takes.
     number: u16,
-    /// The identifier; `None` while the PDO does not exist.
+    /// The identifier; `None` while the PDO does not exist: bit 31 of its COB-ID says so, or its COB-ID or transmission
+    /// type is one that a client could not write.
     can_id: Option<CanId>,
     /// Whether remote frames may ask for it.
     allows_rtr: bool,
@@ -97,6 +104,13 @@ impl Parameters {
         slots: Slots::NONE,
         is_mapping_invalid: false,
     };
+}
+
+impl Parameters {
+    /// Whether other parameters are those of the same PDO: it goes on to exist with the same identifier and mapping.
+    fn is_same_pdo(&self, old: &Self, is_remapped: bool) -> bool {
+        self.can_id.is_some() && self.can_id == old.can_id && !is_remapped
+    }
 }
 
 #[cfg(test)]
