@@ -71,8 +71,7 @@ fn a_node_may_start_by_itself() {
         let bench = Bench::new(plain().u32(0x1F80, 0, RW, startup).build());
         let is_master = startup & 1 == 1 && startup & 4 == 0;
         assert!(!starting.contains(&startup) || is_master || startup == 8);
-        let state =
-            if is_master || startup == 8 { NmtState::Operational } else { NmtState::PreOperational };
+        let state = if is_master || startup == 8 { NmtState::Operational } else { NmtState::PreOperational };
         assert_eq!(bench.node.state(), state, "{startup:X}");
     }
 }
