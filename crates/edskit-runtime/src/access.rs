@@ -83,7 +83,6 @@ impl<'a> Context<'a> {
         let (index, sub_index) = (entry.index, entry.sub_index);
         let cob_id = CobId(u32::from_bytes(data));
         match index {
-            Index::PREDEFINED_ERROR_FIELD if sub_index.0 == 0 => self.check_history(data),
             Index::SYNC_COB_ID => self.check_sync(cob_id),
             Index::STORE_PARAMETERS | Index::RESTORE_PARAMETERS if is_command(entry) => {
                 self.check_command(index, data)
@@ -107,6 +106,7 @@ impl<'a> Context<'a> {
         let (index, sub_index) = (entry.index, entry.sub_index);
         let new = CobId(u32::from_bytes(data));
         match index {
+            Index::PREDEFINED_ERROR_FIELD if sub_index.0 == 0 => self.check_history(data),
             Index::SYNC_COB_ID => self.check_sync_change(new),
             Index(0x1012) => self.check_time_change(new),
             Index::EMCY_COB_ID => self.check_emcy_change(new),

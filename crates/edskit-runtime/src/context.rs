@@ -64,8 +64,10 @@ impl Context<'_> {
             return;
         }
         match can_id.raw() {
-            0 => self.nmt_command(frame),
             0x7E5 if self.core.settings.has_lss => self.lss_request(frame),
+            // Without a node-ID there is nothing but LSS.
+            _ if self.core.node_id.is_none() => {}
+            0 => self.nmt_command(frame),
             0x701..=0x77F if frame.is_remote() => self.guarding_request(can_id),
             0x701..=0x77F => self.heartbeat_received(can_id, frame),
             _ => self.receive_configured(can_id, frame),

@@ -37,6 +37,8 @@ pub(super) struct Harness<'a> {
     /// Whether the last request was one of a block upload, whose segments come with the polls.
     has_block_upload: bool,
     device_type: Vec<u8>,
+    /// The error register that the last EMCY message had, whether or not it was sent.
+    told_register: u8,
     reached: Reached,
 }
 
@@ -86,7 +88,7 @@ impl<'a> Harness<'a> {
         let identity = [1, 2, 3, 4].map(|sub_index| {
             value(Index::IDENTITY, sub_index).try_into().expect("the identity has four numbers of 32 bits")
         });
-        let settings = Settings { node_id: NodeId::new(NODE_ID).ok(), ..Settings::default() };
+        let settings = Settings { node_id: NodeId::new(NODE_ID).ok(), ..layout.settings };
         Self {
             node: Node::new(LoadedDictionary::new(layout), settings, storage),
             device: MemoryDevice::default(),
@@ -98,6 +100,7 @@ impl<'a> Harness<'a> {
             allowed: Vec::new(),
             has_block_upload: false,
             device_type: value(Index::DEVICE_TYPE, 0),
+            told_register: 0,
             reached: Reached::default(),
         }
     }
@@ -261,7 +264,8 @@ impl<'a> Harness<'a> {
         }
     }
 
-    fn check_state(&self) -> Result<(), String> {
+    fn check_state(&mut self) -> Result<(), String> {
+        self.check_parameters()?;
         let (state, node_id) = (self.node.state(), self.node.node_id().map(NodeId::get));
         let expected = (self.nmt.state, self.nmt.node_id);
         if (state, node_id) == expected {
@@ -270,11 +274,35 @@ impl<'a> Harness<'a> {
         Err(format!("the node is in {state} with node-ID {node_id:?} instead of {expected:?}"))
     }
 
+    /// What the error register shows was told last, and no value is there that a client could not write.
+    fn check_parameters(&mut self) -> Result<(), String> {
+        let register: u8 = self.node.objects().value(Index::ERROR_REGISTER, 0).unwrap_or(0);
+        if register != self.told_register {
+            return Err(format!("1001h is {register:02X}h, and {:02X}h was told last", self.told_register));
+        }
+        // This looks at the whole dictionary, so not with every frame.
+        if self.random.u8(..) > 0 {
+            return Ok(());
+        }
+        let mut refused = Vec::new();
+        self.node.refused(&mut self.device, &mut |entry, code| refused.push((*entry, code)));
+        if refused.is_empty() { Ok(()) } else { Err(format!("a client could not write {refused:?}")) }
+    }
+
     /// Whether a heartbeat or the guarding was found missing since the last call.
     fn lost_heartbeats(&mut self) -> bool {
-        let mut events = self.device.take_events().into_iter();
-        let is_loss = |event| matches!(event, DeviceEvent::Emergency(emergency) if emergency.code == 0x8130);
-        events.any(is_loss)
+        let mut is_lost = false;
+        for event in self.device.take_events() {
+            match event {
+                DeviceEvent::State(NmtState::Initialising) => self.told_register = 0,
+                DeviceEvent::Emergency(emergency) => {
+                    self.told_register = emergency.register;
+                    is_lost |= emergency.code == 0x8130;
+                }
+                _ => {}
+            }
+        }
+        is_lost
     }
 
     /// The request, where the frame is one for the default SDO server and the node is in a state to take it.
