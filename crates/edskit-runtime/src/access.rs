@@ -157,7 +157,8 @@ impl<'a> Context<'a> {
     /// Calls `report` with every entry whose value is one that a client could not write.
     pub(crate) fn refused(&mut self, report: &mut dyn FnMut(&Entry, AbortCode)) {
         for (position, entry) in self.objects.table.all() {
-            if !self.exists(entry) {
+            // What follows the node-ID is not known without one.
+            if self.core.node_id.is_none() || !self.exists(entry) {
                 continue;
             }
             let is_count = matches!(Place::at(entry.index), Some((_, true))) && entry.sub_index.0 == 0;

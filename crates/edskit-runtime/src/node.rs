@@ -201,7 +201,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
 
     /// Calls `report` with every entry whose present value is one that a client could not write, and with the abort code
     /// that it would get. Wherever such a value comes from, it has no effect: the service that it belongs to does not
-    /// exist, or works as if the object did not.
+    /// exist, or works as if the object did not. Without a node-ID nothing is reported.
     pub fn refused(&mut self, app: &mut dyn Application, report: &mut dyn FnMut(&Entry, AbortCode)) {
         self.context(Instant::default(), app).refused(report);
     }

@@ -302,7 +302,9 @@ impl Context<'_> {
         if is_relative {
             self.objects.add_node_id(position, self.core.node_id);
         }
-        is_right = is_right && self.check_present(position, entry).is_ok();
+        // What follows the node-ID is not known without one.
+        let is_known = self.core.node_id.is_some();
+        is_right = is_right && (!is_known || self.check_present(position, entry).is_ok());
         if !is_right {
             self.objects.restore_entry(position, entry, self.core.node_id);
         }

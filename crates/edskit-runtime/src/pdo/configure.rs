@@ -2,8 +2,8 @@
 
 use super::mapping::Slots;
 use super::{MOST_ENTRIES, Parameters, Place, Rpdo, Tpdo, sub};
+use crate::Value;
 use crate::context::Context;
-use crate::{Microseconds, Value};
 use edskit_types::{AbortCode, CanId, CobId, MappingEntry, PdoDirection, SubIndex, TransmissionType};
 
 impl Context<'_> {
@@ -49,17 +49,18 @@ impl Context<'_> {
         true
     }
 
-    /// Where a PDO is among those at work, and its parameters.
-    fn at_work(&self, place: Place) -> Option<(usize, Parameters)> {
-        let is_it = |(_, parameters): &(usize, Parameters)| parameters.number == place.number + 1;
+    /// The parameters of a PDO among those at work.
+    #[inline(never)]
+    fn at_work(&mut self, place: Place) -> Option<&mut Parameters> {
+        let is_it = |parameters: &&mut Parameters| parameters.number == place.number + 1;
         match place.direction {
-            PdoDirection::Receive => self.rpdos.iter().map(|rpdo| rpdo.parameters).enumerate().find(is_it),
-            PdoDirection::Transmit => self.tpdos.iter().map(|tpdo| tpdo.parameters).enumerate().find(is_it),
+            PdoDirection::Receive => self.rpdos.iter_mut().map(|rpdo| &mut rpdo.parameters).find(is_it),
+            PdoDirection::Transmit => self.tpdos.iter_mut().map(|tpdo| &mut tpdo.parameters).find(is_it),
         }
     }
 
-    fn slots_of(&self, place: Place) -> Slots {
-        self.at_work(place).map_or(Slots::NONE, |(_, parameters)| parameters.slots)
+    fn slots_of(&mut self, place: Place) -> Slots {
+        self.at_work(place).map_or(Slots::NONE, |parameters| parameters.slots)
     }
 
     fn transmission_of(&self, place: Place) -> TransmissionType {
@@ -77,35 +78,30 @@ impl Context<'_> {
     /// it had under the old ones, the two directions say. `is_remapped` says that the mapping is another one too.
     pub(crate) fn pdo_changed(&mut self, place: Place, is_remapped: bool) {
         let index = place.communication();
-        let Some((position, old)) = self.at_work(place) else { return };
         let cob_id = self.objects.value(index, sub::COB_ID).map_or(CobId(CobId::BIT_31), CobId);
-        let event_time: u16 = self.objects.value(index, sub::EVENT_TIMER).unwrap_or_default();
-        let mut new = Parameters {
-            can_id: self.can_id_of(place),
-            allows_rtr: !cob_id.bit30(),
-            transmission: self.transmission_of(place),
-            event_time: Microseconds::from_milliseconds(event_time.into()),
-            ..old
-        };
+        let (can_id, transmission) = (self.can_id_of(place), self.transmission_of(place));
+        let event_time = self.objects.value(index, sub::EVENT_TIMER).unwrap_or_default();
+        let Some(old) = self.at_work(place).copied() else { return };
+        let mut new = Parameters { can_id, allows_rtr: !cob_id.bit30(), transmission, event_time, ..old };
         if is_remapped {
             let count = self.objects.value(place.mapping(), 0).unwrap_or_default();
             let mapped = self.map(place, old.slots, count, true);
             new.slots = mapped.unwrap_or(Slots { count: 0, bits: 0, ..old.slots });
             new.is_mapping_invalid = mapped.is_err();
         }
+        let number = new.number;
         match place.direction {
-            PdoDirection::Receive => self.rpdo_changed(position, new, is_remapped),
+            PdoDirection::Receive => {
+                let position = self.rpdos.iter().position(|rpdo| rpdo.parameters.number == number);
+                self.rpdo_changed(position.unwrap_or_default(), new, is_remapped);
+            }
             PdoDirection::Transmit => {
+                let position = self.tpdos.iter().position(|tpdo| tpdo.parameters.number == number);
                 let inhibit_time = self.objects.value(index, sub::INHIBIT_TIME).unwrap_or_default();
-                let sync_start: Option<u8> = self.objects.value(index, sub::SYNC_START);
+                let sync_start = self.objects.value(index, sub::SYNC_START);
                 let sync_start = sync_start.filter(|value| is_sync_start(*value)).unwrap_or_default();
-                let inhibit_time = Microseconds::from_inhibit_time(inhibit_time);
-                let carries = new.slots.carries(self.mapped);
-                self.tpdo_changed(
-                    position,
-                    Tpdo::at_rest(new, inhibit_time, sync_start, carries),
-                    is_remapped,
-                );
+                let position = position.unwrap_or_default();
+                self.tpdo_changed(position, new, inhibit_time, sync_start, is_remapped);
             }
         }
     }
@@ -151,7 +147,8 @@ impl Context<'_> {
         data: &[u8],
     ) -> Result<(), AbortCode> {
         if sub_index.0 == 0 {
-            return self.map(place, self.slots_of(place), u8::from_bytes(data), false).map(|_| ());
+            let slots = self.slots_of(place);
+            return self.map(place, slots, u8::from_bytes(data), false).map(|_| ());
         }
         match u32::from_bytes(data) {
             0 => Ok(()),

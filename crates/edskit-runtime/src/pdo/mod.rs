@@ -87,8 +87,8 @@ struct Parameters {
     /// Whether remote frames may ask for it.
     allows_rtr: bool,
     transmission: TransmissionType,
-    /// The time after which a TPDO is sent again, or the longest time between two frames of an RPDO; 0 for none.
-    event_time: Microseconds,
+    /// Milliseconds after which a TPDO is sent again, or the longest time between two frames of an RPDO; 0 for none.
+    event_time: u16,
     slots: Slots,
     /// Whether the mapping in the dictionary cannot be carried.
     is_mapping_invalid: bool,
@@ -100,13 +100,17 @@ impl Parameters {
         can_id: None,
         allows_rtr: false,
         transmission: TransmissionType(0xFF),
-        event_time: Microseconds(0),
+        event_time: 0,
         slots: Slots::NONE,
         is_mapping_invalid: false,
     };
 }
 
 impl Parameters {
+    fn event_time(&self) -> Microseconds {
+        Microseconds::from_milliseconds(self.event_time.into())
+    }
+
     /// Whether other parameters are those of the same PDO: it goes on to exist with the same identifier and mapping.
     fn is_same_pdo(&self, old: &Self, is_remapped: bool) -> bool {
         self.can_id.is_some() && self.can_id == old.can_id && !is_remapped

@@ -55,7 +55,7 @@ impl Context<'_> {
         }
         if new.event_time != old.event_time {
             if rpdo.deadline.is_running() {
-                rpdo.deadline = Timer::after(self.now, new.event_time);
+                rpdo.deadline = Timer::after(self.now, new.event_time());
             }
             self.lateness_found(place, false);
         }
@@ -101,17 +101,17 @@ impl Context<'_> {
     }
 
     fn take(&mut self, place: usize, frame: &Frame) {
-        let Some(Rpdo { parameters, .. }) = self.rpdos.get(place).copied() else { return };
-        let Parameters { number, slots, .. } = parameters;
+        let Some(Rpdo { parameters, .. }) = self.rpdos.get(place) else { return };
+        let Parameters { number, slots, transmission, .. } = *parameters;
         let Some(data) = frame.data().get(..slots.bytes()) else {
             self.shortness_found(place, true, frame.data().len() as u8);
             return;
         };
         let data = raw(data, false);
-        let is_synchronous = parameters.transmission.is_synchronous(PdoDirection::Receive);
+        let is_synchronous = transmission.is_synchronous(PdoDirection::Receive);
         let is_in_time = !is_synchronous || !self.window_has_passed();
         let Some(rpdo) = self.rpdos.get_mut(place) else { return };
-        rpdo.deadline = Timer::after(self.now, parameters.event_time);
+        rpdo.deadline = Timer::after(self.now, rpdo.parameters.event_time());
         if is_synchronous && is_in_time {
             rpdo.waiting = Some(data);
         }

@@ -12,7 +12,8 @@ use edskit_types::{CanId, NmtState, PdoDirection, Transmission};
 #[derive(Clone, Copy, Debug)]
 pub struct Tpdo {
     pub(super) parameters: Parameters,
-    inhibit_time: Microseconds,
+    /// In multiples of 100 µs.
+    inhibit_time: u16,
     sync_start: u8,
     /// A bit for each value that it carries; others may have the same one.
     carries: u32,
@@ -36,7 +37,7 @@ impl Tpdo {
     /// A place for a TPDO.
     pub const NEW: Self = Self {
         parameters: Parameters::NONE,
-        inhibit_time: Microseconds(0),
+        inhibit_time: 0,
         sync_start: 0,
         carries: 0,
         is_due: false,
@@ -68,7 +69,7 @@ impl Tpdo {
 
     /// The time between two transmissions without an event, which only types FEh and FFh have; 0 for none.
     fn event_period(&self) -> Microseconds {
-        if self.is_event_driven() { self.parameters.event_time } else { Microseconds(0) }
+        if self.is_event_driven() { self.parameters.event_time() } else { Microseconds(0) }
     }
 
     /// Whether the PDO exists and carries something.
@@ -95,19 +96,20 @@ impl Tpdo {
         waiting.min(self.event.deadline())
     }
 
-    /// A PDO with nothing but its parameters.
-    pub(super) const fn at_rest(
-        parameters: Parameters,
-        inhibit_time: Microseconds,
-        sync_start: u8,
-        carries: u32,
-    ) -> Self {
-        Self { parameters, inhibit_time, sync_start, carries, ..Self::NEW }
-    }
-
     /// It ends with all that it had besides its parameters.
     fn end(&mut self) {
-        *self = Self::at_rest(self.parameters, self.inhibit_time, self.sync_start, self.carries);
+        self.end_of_type();
+        self.is_due = false;
+        self.inhibit = Timer::OFF;
+        self.event = Timer::OFF;
+    }
+
+    /// It ends with what it had because of its transmission type.
+    fn end_of_type(&mut self) {
+        self.is_ready = false;
+        self.syncs = 0;
+        self.waits_for_start = self.sync_start > 0;
+        self.sample = None;
     }
 
     /// It begins, in the state operational.
@@ -115,7 +117,6 @@ impl Tpdo {
         self.end();
         if self.parameters.can_id.is_some() {
             self.is_due = is_event && self.has_events();
-            self.waits_for_start = self.sync_start > 0;
             self.event = Timer::after(now, self.event_period());
         }
     }
@@ -152,29 +153,39 @@ impl Context<'_> {
     /// What is left of a TPDO with other parameters. Of one that is not the same any more, nothing is: it begins. A sample,
     /// a count and a transmission that waits for room belong to the transmission type; an event stays one as long as the
     /// type has events. The event timer runs as long as type and time ask for it, and begins anew when its time is another.
-    pub(super) fn tpdo_changed(&mut self, place: usize, new: Tpdo, is_remapped: bool) {
-        let (now, is_operational) = (self.now, self.core.state == NmtState::Operational);
+    pub(super) fn tpdo_changed(
+        &mut self,
+        place: usize,
+        new: Parameters,
+        inhibit_time: u16,
+        sync_start: u8,
+        is_remapped: bool,
+    ) {
+        let is_operational = self.core.state == NmtState::Operational;
         let Some(tpdo) = self.tpdos.get_mut(place) else { return };
-        let old = *tpdo;
         // The device may change what a client cannot while the PDO exists.
-        let has_other_times = new.inhibit_time != old.inhibit_time || new.sync_start != old.sync_start;
-        if has_other_times || !new.parameters.is_same_pdo(&old.parameters, is_remapped) {
-            *tpdo = new;
+        let has_other_times = inhibit_time != tpdo.inhibit_time || sync_start != tpdo.sync_start;
+        let is_same = new.is_same_pdo(&tpdo.parameters, is_remapped) && !has_other_times;
+        let (old_meaning, old_period) = (tpdo.meaning(), tpdo.event_period());
+        tpdo.parameters = new;
+        tpdo.inhibit_time = inhibit_time;
+        tpdo.sync_start = sync_start;
+        tpdo.carries = new.slots.carries(self.mapped);
+        if !is_same {
+            tpdo.end();
             if is_operational {
-                tpdo.begin(now, self.app.sends_at_start(new.parameters.number));
+                tpdo.begin(self.now, self.app.sends_at_start(new.number));
             }
             return;
         }
-        tpdo.parameters = new.parameters;
-        if new.meaning() != old.meaning() {
-            let is_due = old.is_due && new.has_events();
-            let waits_for_start = is_operational && new.sync_start > 0;
-            *tpdo = Tpdo { is_due, waits_for_start, inhibit: old.inhibit, event: old.event, ..new };
-        } else if !new.parameters.allows_rtr && !new.is_of_a_period() {
+        if tpdo.meaning() != old_meaning {
+            tpdo.end_of_type();
+            tpdo.is_due &= tpdo.has_events();
+        } else if !new.allows_rtr && !tpdo.is_of_a_period() {
             tpdo.is_ready = false;
         }
-        if is_operational && new.event_period() != old.event_period() {
-            tpdo.event = Timer::after(now, new.event_period());
+        if is_operational && tpdo.event_period() != old_period {
+            tpdo.event = Timer::after(self.now, tpdo.event_period());
         }
     }
 
@@ -230,7 +241,7 @@ impl Context<'_> {
         for place in (first..self.tpdos.len()).chain(0..first) {
             let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
             if tpdo.event.is_due(self.now) {
-                tpdo.event = tpdo.event.again(self.now, tpdo.parameters.event_time);
+                tpdo.event = tpdo.event.again(self.now, tpdo.event_period());
                 tpdo.is_due = true;
             }
             let is_sent_by_event = tpdo.is_due && tpdo.is_event_driven() && !tpdo.is_inhibited(self.now);
@@ -347,7 +358,7 @@ impl Context<'_> {
         }
         // An event since the SYNC message is not in these data.
         tpdo.is_due &= sample.is_some();
-        tpdo.inhibit = Timer::after(self.now, tpdo.inhibit_time);
+        tpdo.inhibit = Timer::after(self.now, Microseconds::from_inhibit_time(tpdo.inhibit_time));
         true
     }
 
