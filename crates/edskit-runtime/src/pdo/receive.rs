@@ -48,6 +48,7 @@ impl Context<'_> {
         let old = core::mem::replace(&mut rpdo.parameters, new);
         if !new.is_same_pdo(&old, is_remapped) {
             self.end_rpdo(place);
+            self.shortness_found(place, false, 0);
             return;
         }
         if !new.transmission.is_synchronous(PdoDirection::Receive) {
@@ -61,13 +62,12 @@ impl Context<'_> {
         }
     }
 
-    /// An RPDO is not received any more: nothing waits, and nothing is missed.
+    /// An RPDO is not received any more: nothing waits, and nothing is missed. That a frame was too short stays true.
     pub(super) fn end_rpdo(&mut self, place: usize) {
         let Some(rpdo) = self.rpdos.get_mut(place) else { return };
         rpdo.waiting = None;
         rpdo.deadline = Timer::OFF;
         self.lateness_found(place, false);
-        self.shortness_found(place, false, 0);
     }
 
     /// Whether no frame has come in time.

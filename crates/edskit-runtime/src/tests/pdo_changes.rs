@@ -179,10 +179,16 @@ fn a_wrong_length_ends_with_its_rpdo() {
     type Change = fn(&mut Bench);
     let changes: [Change; 3] = [
         |bench| invalid(bench, RPDO),
-        |bench| drop(bench.nmt(128)),
         |bench| {
-            set(bench, 0x1014, 0, &[0x85, 0, 0, 0]);
             bench.nmt(128);
+            invalid(bench, RPDO);
+            valid(bench, RPDO);
+        },
+        |bench| {
+            bench.nmt(128);
+            assert_eq!(bench.read(0x1001, 0), Ok([0x11].into()), "the frame was too short in any state");
+            bench.nmt(1);
+            bench.ask(0x205, &[1, 2, 3, 4]);
         },
     ];
     for change in changes {

@@ -298,3 +298,27 @@ fn what_follows_the_node_id_is_stored_so() {
         assert_eq!((value(&mut again, 0x2000), value(&mut again, 0x2001)), (Some(0x19), Some(8)));
     }
 }
+
+#[test]
+fn what_follows_the_node_id_is_right_without_one() {
+    let device = || {
+        super::device::plain()
+            .u32(0x1010, 1, RW, 1)
+            .u32(0x1014, 0, COB_ID.stored_in(StorageGroup::COMMUNICATION), 0x80)
+            .u32(0x1800, 1, COB_ID.stored_in(StorageGroup::COMMUNICATION), 0x180)
+            .build()
+    };
+    let memory = Memory::default();
+    let mut bench = Bench::with_storage(device(), Box::new(memory.clone()));
+    bench.poll();
+    bench.write(0x1010, 1, b"save").unwrap();
+    let settings = crate::Settings { node_id: None, ..Default::default() };
+    let mut bench = Bench::off(device(), settings, Box::new(memory));
+    assert_eq!(bench.poll(), []);
+    for request in [[4, 1], [0x11, 7], [4, 0]] {
+        let [command, argument] = request;
+        bench.ask(0x7E5, &[command, argument, 0, 0, 0, 0, 0, 0]);
+    }
+    assert_eq!(bench.node.objects().value(Index(0x1800), 1), Some(0x187_u32));
+    assert_eq!(bench.node.objects().value(Index::ERROR_REGISTER, 0), Some(0_u8), "nothing is lost");
+}
