@@ -19,7 +19,7 @@ type Generated = NodeDevice<device::Dictionary, MemoryStorage, MemoryDevice>;
 fn main() -> Result<(), Box<dyn Error>> {
     let listen: SocketAddr = option("--listen").as_deref().unwrap_or("127.0.0.1:0").parse()?;
     let node_id = NodeId::new(option("--node-id").as_deref().unwrap_or("1").parse()?)?;
-    let settings = Settings { node_id: Some(node_id), ..Settings::default() };
+    let settings = Settings { node_id: Some(node_id), ..device::SETTINGS };
     let node = Node::new(device::Dictionary::new(), settings, MemoryStorage::default());
     let device = NodeDevice { node, application: MemoryDevice::default() };
     match option("--bus").as_deref() {

@@ -1,6 +1,7 @@
 //! Any EDS or DCF as a live node.
 
 mod log;
+mod refused;
 
 use super::{Connected, connect};
 use crate::cli::RunArguments;
@@ -29,13 +30,15 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
             return Ok(Exit::Failed);
         }
     };
-    let warnings = warnings_of(&layout);
+    let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
+    let settings = Settings { node_id: Some(node_id), ..layout.settings };
+    let mut warnings = warnings_of(&layout);
+    warnings.extend(refused::problems(&layout, settings));
     let (shown, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
     print_problems(shown, &naming, streams)?;
     if !others.is_empty() {
         writeln!(streams.stderr, "and {} warnings more", others.len())?;
     }
-    let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
     let log = Log::new(arguments.log.unwrap_or_default());
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
     let bit_rate = arguments.bit_rate.or(bit_rate).unwrap_or(Bitrate::Kbit1000);
@@ -44,7 +47,6 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     log.reachable(streams, &reachable)?;
     let stop = Stop::on_request().map_err(io::Error::other)?;
     log::node(&log, streams, node_id, layout.product.as_deref())?;
-    let settings = Settings { node_id: Some(node_id), ..Settings::default() };
     let node = Node::new(LoadedDictionary::new(&layout), settings, MemoryStorage::default());
     let mut station = Station::new(NodeDevice { node, application: MemoryDevice::default() }, bus);
     while !stop.is_asked() {
