@@ -24,7 +24,6 @@ mod profile;
 mod rule;
 mod rule_set;
 pub mod rules;
-mod similar;
 mod suppression;
 #[cfg(test)]
 mod testing;
@@ -42,4 +41,4 @@ pub use rule::{
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};
-pub use similar::nearest;
+pub use edskit_model::nearest;

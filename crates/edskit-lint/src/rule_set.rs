@@ -151,7 +151,7 @@ impl core::error::Error for UnknownRule {}
 fn nearest(selector: &str) -> Option<&'static str> {
     let lower = selector.to_ascii_lowercase();
     let names = ALL.iter().flat_map(|rule| [rule.code, rule.name]);
-    crate::similar::nearest(&lower, names)
+    edskit_model::nearest(&lower, names)
 }
 
 #[cfg(test)]
