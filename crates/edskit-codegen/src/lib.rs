@@ -21,6 +21,7 @@
 //! | what stands against it | [`Problem`] |
 
 mod compile;
+mod gate;
 mod generate;
 mod identifier;
 mod layout;
@@ -33,7 +34,7 @@ mod text;
 pub use compile::{Config, compile, write_if_changed};
 pub use generate::{Generated, generate, parse};
 pub use identifier::module_name;
-pub use layout::{Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out};
+pub use layout::{CobIdParameter, Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out};
 pub use loaded::LoadedDictionary;
 pub use problem::{InputFile, Problem};
 pub use render::{Naming, render};

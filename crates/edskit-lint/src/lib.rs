@@ -35,7 +35,7 @@ pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
 pub use neighbours::Neighbours;
 pub use peers::{PEER_FINDINGS, Peer, PeerFinding};
-pub use profile::{Profile, ProfileError};
+pub use profile::{Profile, ProfileError, StandardDefault, standard_default};
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck, NODE_LISTS,
     ObjectCheck, Rule, SectionCheck, VariableCheck,

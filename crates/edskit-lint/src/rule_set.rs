@@ -82,6 +82,12 @@ impl RuleSet {
         self.enabled().any(|enabled| enabled == rule)
     }
 
+    /// How bad somebody has said the findings of a rule are; `None` where the rule itself says it.
+    pub fn said_severity(&self, rule: &Rule) -> Option<Severity> {
+        let position = ALL.iter().position(|known| **known == *rule)?;
+        self.states[position].severity
+    }
+
     pub(crate) fn apply_severities(&self, findings: &mut [Finding]) {
         if self.states.iter().all(|state| state.severity.is_none()) {
             return;

@@ -1,6 +1,7 @@
 use super::*;
 
-const EDS: &str = "[1017]\nParameterName=Heartbeat\nObjectType=7\nDataType=6\nAccessType=rw\n";
+/// An object of a configured device, to which nothing is added.
+const EDS: &str = "[1017]\nParameterName=Heartbeat\nObjectType=7\nDataType=6\nAccessType=rw\n[DeviceComissioning]\n";
 
 /// A folder of one test, gone when the test is.
 struct Folder(PathBuf);
@@ -73,10 +74,14 @@ fn settings_name_what_is_written() {
 #[test]
 fn findings_are_told_with_their_place() {
     let folder = Folder::new("findings");
-    let eds = folder.write("a.eds", EDS);
+    let eds = folder.write("a.eds", &EDS.replace("rw\n", "rw\nDefaultValue=70000\n"));
     let errors = folder.run(&Config::new(), &eds);
-    assert!(errors.contains("cargo::error=<folder>/a.eds:1:1: DEV001 "), "{errors}");
-    assert!(!folder.0.join("out/a.rs").exists());
+    assert!(errors.contains("cargo::error=<folder>/a.eds:6:14: VAL002 "), "{errors}");
+    assert!(!errors.contains("DEV001") && !folder.0.join("out/a.rs").exists(), "{errors}");
+    folder.write("a.eds", EDS);
+    let told = folder.run(&Config::new(), &eds);
+    assert!(told.contains("cargo::warning=<folder>/a.eds:1:1: DEV001 ") && !told.contains("cargo::error"), "{told}");
+    assert!(folder.0.join("out/a.rs").exists());
     let mut rules = RuleSet::none();
     rules.select("STY").unwrap();
     folder.write("a.eds", &EDS.replace("rw\n", "rw\nLowLimit=$NODEID\n"));

@@ -49,6 +49,16 @@ pub struct Place {
     pub position: TextPosition,
 }
 
+impl Place {
+    /// Where the value of an entry stands.
+    pub(super) fn of(item: &Item, document: &Document) -> Self {
+        let span = item.value_span;
+        let is_eds = item.source.file == InputFile::Eds;
+        let position = if is_eds { document.position(span.start) } else { item.source.position };
+        Self { file: item.source.file, span, position }
+    }
+}
+
 impl Mapping {
     /// The bits of all entries.
     #[must_use]
@@ -153,12 +163,7 @@ pub(super) fn read(items: &[Item], document: &Document) -> Vec<Mapping> {
     let mut mappings = Vec::new();
     for object in items.chunk_by(|a, b| a.index == b.index) {
         let Some((direction, number)) = pdo_of(object[0].index) else { continue };
-        let place = |item: &Item| {
-            let span = item.value_span;
-            let is_eds = item.source.file == InputFile::Eds;
-            let position = if is_eds { document.position(span.start) } else { item.source.position };
-            Place { file: item.source.file, span, position }
-        };
+        let place = |item: &Item| Place::of(item, document);
         let count = &object[0];
         let Some(mapped) = count.default.as_ref().filter(|_| count.sub_index == SubIndex(0)) else {
             continue;

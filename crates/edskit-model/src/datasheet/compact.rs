@@ -144,6 +144,17 @@ impl<'a> DictionaryEntry<'a> {
         [own_low.or(low), own_high.or(high)]
     }
 
+    /// Whether it is one of the equal entries of an object with CompactSubObj and has no value, name or denotation of its
+    /// own, nor is it their number.
+    pub fn is_like_others(self) -> bool {
+        let lists = [SectionKind::CompactNames, SectionKind::CompactValues, SectionKind::CompactDenotations];
+        match self.origin {
+            Origin::Described(_) => false,
+            Origin::Count(_) => true,
+            Origin::Element(object) => lists.into_iter().all(|kind| self.listed(object, kind).is_none()),
+        }
+    }
+
     fn listed(self, object: Object<'a>, kind: fn(Index) -> SectionKind) -> Option<Entry<'a>> {
         let list = object.sheet().section(kind(self.index))?;
         list.numbered(KeyName::Item, self.sub_index.0.into()).filter(|entry| !entry.is_empty())
@@ -159,7 +170,9 @@ impl<'a> Object<'a> {
     /// The entry at `sub_index`, described or compact.
     pub fn dictionary_entry(self, sub_index: SubIndex) -> Option<DictionaryEntry<'a>> {
         let compact = self.compact_count();
-        let has_subs = compact > 0 || self.object_code().is_none_or(|code| code.has_sub_objects());
+        // Where the object code cannot be read, the sections say what the object is.
+        let is_described = || self.sub_objects().len() > 0;
+        let has_subs = compact > 0 || self.object_code().map_or_else(is_described, |code| code.has_sub_objects());
         let origin = if let Some(sub) = self.sub_object(sub_index) {
             Origin::Described(sub.description())
         } else if !has_subs {

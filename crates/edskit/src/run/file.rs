@@ -29,13 +29,13 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
             return Ok(Exit::Failed);
         }
     };
-    let warnings = warnings_of(&layout);
+    let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
+    let warnings = warnings_of(&layout, node_id);
     let (shown, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
     print_problems(shown, &naming, streams)?;
     if !others.is_empty() {
         writeln!(streams.stderr, "and {} warnings more", others.len())?;
     }
-    let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
     let log = Log::new(arguments.log.unwrap_or_default());
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
     // The hub lives as long as the node.
@@ -70,11 +70,13 @@ struct Loaded {
     naming: Naming,
 }
 
-/// What the node does without, although the file describes it.
-fn warnings_of(layout: &Layout) -> Vec<Problem> {
+/// What was assumed, which services are not in use, and what else the node does without, although the file describes it.
+fn warnings_of(layout: &Layout, node_id: NodeId) -> Vec<Problem> {
     let mappings = layout.mapping_problems();
     let without = mappings.into_iter().map(|problem| Problem { severity: Severity::Warning, ..problem });
-    layout.notes.iter().cloned().chain(without).collect()
+    let cob_ids = layout.cob_id_problems(Some(node_id));
+    let said = layout.lost.iter().chain(&layout.notes).cloned();
+    layout.assumptions.iter().cloned().chain(cob_ids).chain(said).chain(without).collect()
 }
 
 /// Reads a file with its side-file and lays its dictionary out.
