@@ -55,7 +55,8 @@ pub fn generate(
         return Err(stopping.into_iter().map(problem).collect());
     }
     let layout = layout?;
-    let errors = layout.mapping_problems();
+    let (errors, unused): (Vec<_>, Vec<_>) =
+        layout.mapping_problems().into_iter().partition(|problem| problem.severity == Severity::Error);
     if !errors.is_empty() {
         return Err(errors);
     }
@@ -65,6 +66,7 @@ pub fn generate(
     warnings.extend_from_slice(&layout.lost);
     warnings.extend_from_slice(&layout.notes);
     warnings.extend(layout.cob_id_problems(None));
+    warnings.extend(unused);
     Ok(Generated { code: render(&layout, naming), layout, warnings })
 }
 

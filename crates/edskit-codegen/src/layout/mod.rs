@@ -38,8 +38,9 @@ pub const MOST_BYTES: usize = u16::MAX as usize;
 /// use edskit_types::{Index, SubIndex};
 /// let text = b"[1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\nDefaultValue=1000\n";
 /// let layout = lay_out(&Datasheet::parse(text), &SideFile::default()).unwrap();
-/// assert_eq!(layout.defaults, 1000_u16.to_le_bytes());
-/// assert!(layout.table().find(Index(0x1017), SubIndex(0)).is_ok());
+/// let heartbeat = layout.table().find(Index(0x1017), SubIndex(0)).unwrap();
+/// assert_eq!(layout.default_of(&layout.entries[usize::from(heartbeat.0)]), 1000_u16.to_le_bytes());
+/// assert_eq!(layout.assumptions.len(), 3, "1000h, 1001h and 1018h are missing");
 /// ```
 #[derive(Clone, Debug)]
 pub struct Layout {
