@@ -66,10 +66,7 @@ impl Entry<'_> {
         let failed = |result: Result<(), ValueError>| result.is_err();
         let name = self.key().name;
         let (is_wrong, wanted) = match section.kind().shape_of(name) {
-            Shape::Unsigned(_) if name == KeyName::DataType => {
-                (failed(self.number().value.map(drop)), Wanted::DataType)
-            }
-            Shape::Unsigned(_) => (failed(self.number().value.map(drop)), Wanted::Number),
+            Shape::Unsigned(_) => (failed(self.number().value.map(drop)), self.wanted_number()),
             Shape::Flag => (failed(self.flag().value.map(drop)), Wanted::Flag),
             Shape::Access => (failed(self.access_type().value.map(drop)), Wanted::Access),
             Shape::ObjectCode => (failed(self.object_code().value.map(drop)), Wanted::ObjectCode),

@@ -151,8 +151,12 @@ impl<'a> Entry<'a> {
     }
 
     /// What a number of this entry is.
-    fn wanted_number(self) -> Wanted {
-        if self.key().name == KeyName::DataType { Wanted::DataType } else { Wanted::Number }
+    pub(super) fn wanted_number(self) -> Wanted {
+        match self.key().name {
+            KeyName::DataType => Wanted::DataType,
+            KeyName::Item => Wanted::Index,
+            _ => Wanted::Number,
+        }
     }
 
     #[inline]

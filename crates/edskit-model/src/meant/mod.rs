@@ -26,6 +26,7 @@ pub(crate) use behind::before_comment;
 pub use behind::value_length;
 pub use formula::{formula, is_hexadecimal};
 pub use number::{number, without_prefix};
+use number::index;
 pub use words::{access, flag};
 
 use crate::value::{Formula, Number, Value};
@@ -40,6 +41,8 @@ pub struct Slip {
     pub reason: &'static str,
     /// Whether nothing else can have been meant. What is not certain is an advice to people, and never a value.
     pub certain: bool,
+    /// What it may be as well, where that is possible but less likely.
+    pub other: Option<String>,
 }
 
 /// What has to stand somewhere.
@@ -47,6 +50,8 @@ pub struct Slip {
 pub enum Wanted {
     /// A number.
     Number,
+    /// The index of an object.
+    Index,
     /// The index of a data type.
     DataType,
     /// An object code.
@@ -86,7 +91,7 @@ fn unwrapped(text: &str, wanted: Wanted, layers: usize) -> Option<Slip> {
     for (reason, take) in behind::LAYERS.iter().filter(|_| layers > 0) {
         let Some(rest) = take(text).filter(|rest| rest.len() < text.len() && !rest.is_empty()) else { continue };
         if wanted.is_met_by(rest) {
-            return Some(Slip { text: rest.to_owned(), reason, certain: true });
+            return Some(Slip { text: rest.to_owned(), reason, certain: true, other: None });
         }
         if let Some(slip) = unwrapped(rest, wanted, layers - 1) {
             return Some(Slip { reason, ..slip });
@@ -101,7 +106,7 @@ impl Wanted {
         let raw = text.as_bytes();
         let number = || Number::parse(raw).ok();
         match self {
-            Self::Number | Self::DataType => number().is_some(),
+            Self::Number | Self::Index | Self::DataType => number().is_some(),
             Self::ObjectCode => number().and_then(Number::to).and_then(ObjectCode::from_code).is_some(),
             Self::Flag => number().is_some_and(|number| matches!(number.to::<u64>(), Some(0 | 1))),
             Self::Access => AccessType::parse(raw).is_some(),
@@ -112,12 +117,11 @@ impl Wanted {
 
     /// What a text without anything around it was meant to be.
     fn respelt(self, text: &str) -> Option<Slip> {
-        let word = |word: Option<String>, reason| word.map(|text| Slip { text, reason, certain: true });
+        let word = |word: Option<String>, reason| word.map(|text| Slip { text, reason, certain: true, other: None });
         match self {
             Self::Number => number(text),
-            Self::DataType => {
-                word(words::data_type(text), "a data type is given by its index").or_else(|| number(text))
-            }
+            Self::Index => index(text),
+            Self::DataType => word(words::data_type(text), "a data type is given by its index").or_else(|| index(text)),
             Self::ObjectCode => {
                 word(words::object_code(text), "an object code is a number").or_else(|| number(text))
             }

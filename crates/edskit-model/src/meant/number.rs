@@ -3,8 +3,20 @@
 use super::Slip;
 use crate::value::Number;
 
-/// What is wrong, and the number with whether no other one can have been meant.
-type Spelling = (&'static str, fn(&str) -> Option<(String, bool)>);
+/// A number, and what else can have been meant.
+enum Guess {
+    /// Nothing else.
+    Certain(String),
+    /// Something that nobody can name.
+    Likely(String),
+    /// This, which is less likely.
+    Either(String, String),
+}
+
+use Guess::{Certain, Either, Likely};
+
+/// What is wrong, and how the number is found.
+type Spelling = (&'static str, fn(&str) -> Option<Guess>);
 
 const PREFIX: &str = "hexadecimal numbers begin with `0x`";
 const DIGITS: &str = "only digits belong to a number";
@@ -27,9 +39,29 @@ const SPELLINGS: &[Spelling] = &[
 /// The number that `text`, which is none, was meant to be.
 pub fn number(text: &str) -> Option<Slip> {
     SPELLINGS.iter().find_map(|(reason, read)| {
-        let (text, certain) = read(text)?;
-        Some(Slip { text, reason, certain })
+        let (text, certain, other) = match read(text)? {
+            Certain(text) => (text, true, None),
+            Likely(text) => (text, false, None),
+            Either(text, other) => (text, false, Some(other)),
+        };
+        // What is proposed must not be the next slip: a leading 0 makes a number octal.
+        let digits = text.trim_start_matches('0');
+        if text.len() > 1 && digits.len() < text.len() && is_decimal(&text) {
+            let text = if digits.is_empty() { "0".to_owned() } else { digits.to_owned() };
+            let certain = certain && text.len() == 1;
+            return Some(Slip { text, reason, certain, other });
+        }
+        Some(Slip { text, reason, certain, other })
     })
+}
+
+/// The same for an index, which is hexadecimal whatever else its digits may look like.
+pub(super) fn index(text: &str) -> Option<Slip> {
+    let mut slip = number(text)?;
+    if let Some(other) = slip.other.take_if(|other| other.starts_with("0x")) {
+        return Some(Slip { text: other, reason: PREFIX, certain: text.len() == 4, other: None });
+    }
+    Some(slip)
 }
 
 /// The index that a text is as hexadecimal digits, where `0x` does not stand before them: `1018`, `1A00`.
@@ -41,84 +73,93 @@ pub fn without_prefix(text: &[u8]) -> Option<u16> {
 }
 
 /// `0x0x1A`, `0xx1A`
-fn doubled_prefix(text: &str) -> Option<(String, bool)> {
+fn doubled_prefix(text: &str) -> Option<Guess> {
     let lower = text.to_ascii_lowercase();
     let digits = lower.strip_prefix("0x0x").or_else(|| lower.strip_prefix("0xx"))?;
-    is_hex(digits).then(|| (format!("0x{}", tail(text, digits)), true))
+    is_hex(digits).then(|| Certain(format!("0x{}", tail(text, digits))))
 }
 
 /// `$1A`, `16#1A`, `&H1A`, `x1A`
-fn other_prefix(text: &str) -> Option<(String, bool)> {
+fn other_prefix(text: &str) -> Option<Guess> {
     let lower = text.to_ascii_lowercase();
     let prefixes = ["&h", "16#", "$", "\\x", "x"];
     let mut digits = prefixes.into_iter().filter_map(|prefix| lower.strip_prefix(prefix));
     let digits = digits.find(|digits| is_hex(digits))?;
-    Some((format!("0x{}", tail(text, digits)), true))
+    Some(Certain(format!("0x{}", tail(text, digits))))
 }
 
 /// `1Ah`, `0x1Ah`
-fn suffix_h(text: &str) -> Option<(String, bool)> {
+fn suffix_h(text: &str) -> Option<Guess> {
     let lower = text.to_ascii_lowercase();
     let digits = lower.strip_suffix('h')?.trim_end();
     let digits = digits.strip_prefix("0x").unwrap_or(digits);
-    is_hex(digits).then(|| (format!("0x{}", digits.to_ascii_uppercase()), true))
+    is_hex(digits).then(|| Certain(format!("0x{}", digits.to_ascii_uppercase())))
 }
 
 /// `0b101`
-fn binary(text: &str) -> Option<(String, bool)> {
+fn binary(text: &str) -> Option<Guess> {
     let digits = text.strip_prefix("0b").or_else(|| text.strip_prefix("0B"))?;
     let value = u64::from_str_radix(digits, 2).ok()?;
-    Some((format!("0x{value:X}"), true))
+    Some(Certain(format!("0x{value:X}")))
 }
 
 /// `0o17`
-fn octal(text: &str) -> Option<(String, bool)> {
+fn octal(text: &str) -> Option<Guess> {
     let digits = text.strip_prefix("0o").or_else(|| text.strip_prefix("0O"))?;
     let value = u64::from_str_radix(digits, 8).ok()?;
-    Some((value.to_string(), true))
+    Some(Certain(value.to_string()))
 }
 
-/// `1e3`: 1000, or the digits of a hexadecimal number.
-fn exponent(text: &str) -> Option<(String, bool)> {
-    let (digits, zeros) = text.split_once(['e', 'E'])?;
-    let is_decimal = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    // `1E00` is an index.
-    if !is_decimal(digits) || !is_decimal(zeros) || digits.starts_with('0') || zeros.starts_with('0') {
+/// `2.5e3`; and `1e3`, which may be the digits of a hexadecimal number too.
+fn exponent(text: &str) -> Option<Guess> {
+    let (mantissa, exponent) = text.split_once(['e', 'E'])?;
+    let exponent: usize = exponent.strip_prefix('+').unwrap_or(exponent).parse().ok()?;
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = format!("{whole}{fraction}");
+    if whole.is_empty() || !is_decimal(&digits) || fraction.len() > exponent || exponent > 19 {
         return None;
     }
-    let zeros = zeros.parse().ok().filter(|zeros| *zeros < 19)?;
-    let number = format!("{digits}{}", "0".repeat(zeros));
-    is_number(&number).then_some((number, false))
+    let number = format!("{digits}{}", "0".repeat(exponent - fraction.len()));
+    let number = number.parse::<u64>().ok()?.to_string();
+    Some(if is_hex(text) { Either(number, format!("0x{text}")) } else { Certain(number) })
 }
 
-/// `1.0`
-fn fraction(text: &str) -> Option<(String, bool)> {
+/// `1.0`; and `12,500`, where three digits behind the mark are a group of thousands more often than a fraction.
+fn fraction(text: &str) -> Option<Guess> {
     let (whole, fraction) = text.split_once(['.', ','])?;
-    if !is_number(whole) || fraction.is_empty() || !fraction.bytes().all(|byte| byte.is_ascii_digit()) {
+    if !is_number(whole) || !is_decimal(fraction) {
         return None;
     }
-    let is_zero = fraction.bytes().all(|byte| byte == b'0') && fraction.len() < 3;
-    Some((whole.to_owned(), is_zero))
+    if fraction.len() == 3 && is_decimal(whole) && whole.len() <= 3 && !whole.starts_with('0') {
+        return Some(Either(format!("{whole}{fraction}"), whole.to_owned()));
+    }
+    let is_zero = fraction.bytes().all(|byte| byte == b'0');
+    Some(if is_zero { Certain(whole.to_owned()) } else { Likely(whole.to_owned()) })
 }
 
 /// `08`
-fn leading_zero(text: &str) -> Option<(String, bool)> {
-    let digits = text.strip_prefix('0').filter(|rest| rest.bytes().all(|byte| byte.is_ascii_digit()))?;
-    let digits = digits.trim_start_matches('0');
-    is_number(digits).then(|| (digits.to_owned(), digits.len() == 1))
+fn leading_zero(text: &str) -> Option<Guess> {
+    let digits = text.strip_prefix('0').filter(|rest| is_decimal(rest))?.trim_start_matches('0');
+    let is_certain = digits.len() == 1;
+    is_number(digits).then(|| if is_certain { Certain(digits.to_owned()) } else { Likely(digits.to_owned()) })
 }
 
 /// `1A00`
-fn no_prefix(text: &str) -> Option<(String, bool)> {
+fn no_prefix(text: &str) -> Option<Guess> {
     let usual_width = matches!(text.len(), 2 | 4 | 8);
-    is_hex(text).then(|| (format!("0x{text}"), usual_width))
+    let number = format!("0x{text}");
+    is_hex(text).then(|| if usual_width { Certain(number) } else { Likely(number) })
 }
 
 /// `100 ms`
-fn unit(text: &str) -> Option<(String, bool)> {
+fn unit(text: &str) -> Option<Guess> {
     let (number, unit) = text.split_at(text.find([' ', '\t'])?);
     let is_unit = unit.trim().bytes().all(|byte| byte.is_ascii_alphabetic() || matches!(byte, b'/' | b'%'));
-    (is_unit && is_number(number)).then(|| (number.to_owned(), false))
+    (is_unit && is_number(number)).then(|| Likely(number.to_owned()))
+}
+
+fn is_decimal(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 /// The real number that was meant: with a point in the place of its only comma, without the suffix of a C literal.
@@ -141,25 +182,25 @@ pub(super) fn octets(text: &str) -> Option<String> {
 
 /// The number without quotes, blanks, digit separators, a mark at its end, a C suffix; with digits for letters that
 /// look like them.
-fn cleaned(text: &str) -> Option<(String, bool)> {
+fn cleaned(text: &str) -> Option<Guess> {
     let inner = text.trim_matches(['"', '\'']).trim_end_matches([';', ',']).trim();
     let inner = inner.trim_end_matches(['u', 'U', 'l', 'L']);
     let dense: String = inner.chars().filter(|c| !matches!(c, ' ' | '\t' | '_' | '\'')).collect();
     let is_hex = dense.starts_with("0x") || dense.starts_with("0X");
     let is_one = is_hex || !inner.contains([' ', '\t']) || is_grouped(inner);
     if is_number(&dense) && is_one {
-        return Some((dense, true));
+        return Some(Certain(dense));
     }
     let has_digit = dense.len() == 1 || dense.bytes().any(|byte| byte.is_ascii_digit());
     let digits: String = dense.chars().map(digit_like).collect();
-    (has_digit && digits != dense && is_number(&digits)).then_some((digits, true))
+    (has_digit && digits != dense && is_number(&digits)).then_some(Certain(digits))
 }
 
 /// The digit that a letter looks like.
 fn digit_like(letter: char) -> char {
     match letter {
         'o' | 'O' => '0',
-        'l' | 'I' => '1',
+        'l' | 'I' | '|' => '1',
         other => other,
     }
 }
@@ -220,7 +261,15 @@ mod tests {
             ("0xI0", "0x10", true),
             ("1.0", "1", true),
             ("1,5", "1", false),
-            ("1.000", "1", false),
+            ("1.000", "1000", false),
+            ("12,500", "12500", false),
+            ("0.500", "0", false),
+            ("0O777", "511", true),
+            ("2.5E3", "2500", true),
+            ("1e+3", "1000", true),
+            ("\"010\"", "10", false),
+            ("O17", "17", false),
+            ("0xlA00", "0x1A00", true),
             ("08", "8", true),
             ("0189", "189", false),
             ("100 ms", "100", false),
@@ -241,13 +290,24 @@ mod tests {
     }
 
     #[test]
+    fn the_likelier_reading_comes_first() {
+        let other = |text: &str| number(text).and_then(|slip| slip.other);
+        assert_eq!(other("1e3").as_deref(), Some("0x1e3"));
+        assert_eq!(other("1.000").as_deref(), Some("1"));
+        assert_eq!((other("2.5e3"), other("1_000"), other("1A00")), (None, None, None));
+    }
+
+    #[test]
     fn what_is_proposed_is_a_number() {
         let letters = ["", "0", "8", "a", "h", "x", "b", "O", "$", "#", ".", ",", ";", " ", "\"", "u", "-"];
         for place in 0..letters.len().pow(4) {
             let letter = |position| letters[place / letters.len().pow(position) % letters.len()];
             let text: String = (0..4).map(letter).collect();
             if let Some(slip) = number(&text).filter(|_| !is_number(&text)) {
-                assert!(is_number(&slip.text), "{} for {text}", slip.text);
+                let number = &slip.text;
+                assert!(is_number(number), "{number} for {text}");
+                let looks_octal = number.len() > 1 && number.starts_with('0') && is_decimal(number);
+                assert!(!looks_octal, "{number} for {text} would be the next slip");
             }
         }
     }

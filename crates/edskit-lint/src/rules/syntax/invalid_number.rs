@@ -141,7 +141,11 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
         _ => value,
     };
     let key = entry.key_text();
-    let wanted = if entry.key().name == KeyName::DataType { Wanted::DataType } else { Wanted::Number };
+    let wanted = match entry.key().name {
+        KeyName::DataType => Wanted::DataType,
+        KeyName::Item => Wanted::Index,
+        _ => Wanted::Number,
+    };
     let slip = entry.slip(wanted);
     if wanted == Wanted::DataType
         && raw.first().is_some_and(u8::is_ascii_alphabetic)
@@ -174,6 +178,8 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
     let number = &slip.text;
     if raw.iter().all(u8::is_ascii_digit) {
         finding.help(format!("write `{number}`, or `0x{}` if that was meant", context.sheet.text(value)));
+    } else if let Some(other) = &slip.other {
+        finding.help(format!("write `{key}={number}`, or `{other}` if that was meant; {}", slip.reason));
     } else {
         finding.help(format!("write `{key}={number}`; {}", slip.reason));
     }
@@ -231,6 +237,23 @@ mod tests {
         ] {
             assert_eq!(value(data_type, fine), [""; 0], "{data_type} {fine}");
         }
+    }
+
+    #[test]
+    fn numbers_of_other_languages_are_read_as_they_were_meant() {
+        let help = |text: &str| {
+            let findings = lint(&INVALID_NUMBER, "a.eds", &Datasheet::parse(text.as_bytes()));
+            findings[0].help.clone().unwrap()
+        };
+        let value = |value: &str| format!("[2000]\nDataType=7\nDefaultValue={value}\n");
+        assert_eq!(
+            help(&value("1e3")),
+            "write `DefaultValue=1000`, or `0x1e3` if that was meant; an integer has no exponent"
+        );
+        assert_eq!(fixed(&INVALID_NUMBER, &value("0o17")), value("15"));
+        assert_eq!(fixed(&INVALID_NUMBER, &value("1e3")), value("1e3"), "nobody can be sure");
+        let list = "[ManufacturerObjects]\n1=2E03\n";
+        assert_eq!(fixed(&INVALID_NUMBER, list), list.replace("2E03", "0x2E03"));
     }
 
     #[test]
