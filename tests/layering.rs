@@ -26,7 +26,7 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     (
         "edskit-codegen",
         &["edskit-types", "edskit-model", "edskit-lint", "edskit-runtime"],
-        Only(&["askama", "serde", "toml"]),
+        Only(&["askama", "globset", "serde", "toml"]),
     ),
     (
         "edskit",

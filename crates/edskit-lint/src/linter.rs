@@ -4,6 +4,7 @@ use crate::context::{Context, Report, Variable};
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::line_without_equals;
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
+use crate::inline_comment;
 use crate::suppression;
 use crate::{Check, FileKind, Finding, Neighbours, Profile, RuleSet};
 use edskit_model::Datasheet;
@@ -93,6 +94,7 @@ impl Linter {
         }
         let mut findings = report.into_findings();
         line_without_equals::take_over_lost_headers(context, &mut findings);
+        inline_comment::protect(context, &mut findings);
         for label in findings.iter_mut().flat_map(|finding| &mut finding.labels) {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);

@@ -154,8 +154,7 @@ impl Context<'_> {
     /// What holds for every COB-ID: 29-bit identifiers are not supported, and what CiA 301 restricts
     /// cannot be used by a valid one.
     pub(crate) fn check_cob_id(&self, cob_id: CobId) -> Result<(), AbortCode> {
-        let is_restricted = IdentifierRules::CIA_301.restriction(cob_id.can_id()).is_some();
-        if cob_id.is_extended() || cob_id.has_stray_bits() || (cob_id.is_valid() && is_restricted) {
+        if IdentifierRules::CIA_301.fault(cob_id).is_some() {
             return Err(AbortCode::INVALID_VALUE);
         }
         Ok(())

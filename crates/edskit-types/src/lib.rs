@@ -12,7 +12,7 @@
 //! | rights on an object | [`AccessType`] |
 //! | type of a value | [`DataType`], [`DataTypeKind`] |
 //! | when a PDO is sent or applied | [`TransmissionType`], [`Transmission`], [`PdoDirection`] |
-//! | who uses which identifier, and what is in whose way | [`Claim`], [`Party`], [`conflicts`], [`IdentifierRules`] |
+//! | who uses which identifier, and what is in whose way | [`Claim`], [`Party`], [`conflicts`], [`IdentifierRules`], [`CobIdFault`] |
 //! | speed of the bus | [`Bitrate`], [`BitRates`] |
 //! | state of a device, and what changes it | [`NmtState`], [`NmtCommand`] |
 //! | why an SDO transfer was refused | [`AbortCode`] |
@@ -63,7 +63,7 @@ pub use cob_id::{CanId, CobId};
 pub use data_type::{DataType, DataTypeKind};
 pub use emergency_code::{EmergencyCode, ErrorRegister};
 pub use identifiers::{
-    Claim, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole, conflicts,
+    Claim, CobIdFault, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole, conflicts,
 };
 pub use index::{Index, ObjectArea, SubIndex};
 pub use mapping_entry::MappingEntry;

@@ -207,6 +207,9 @@ pub(crate) struct ShowArguments {
     /// Evaluate `$NODEID` with this node-ID, 1..127; a DCF's own is used where none is given
     #[arg(long, value_name = "ID", value_parser = parse_node_id)]
     pub(crate) node_id: Option<NodeId>,
+    /// List what is written wrongly and read as it was meant, instead of the device
+    #[arg(long, conflicts_with = "place")]
+    pub(crate) meant: bool,
     /// How it is printed
     #[arg(long, value_enum, default_value_t = ShowFormat::Human)]
     pub(crate) format: ShowFormat,

@@ -1,5 +1,7 @@
 //! From a datasheet to the plain data that a dictionary consists of.
 
+mod assumptions;
+mod cob_ids;
 mod counts;
 mod gather;
 mod groups;
@@ -12,6 +14,7 @@ mod value;
 #[cfg(test)]
 mod tests;
 
+pub use cob_ids::CobIdParameter;
 pub use counts::Counts;
 pub use mappings::{Mapped, Mapping, Place};
 
@@ -36,8 +39,9 @@ pub const MOST_BYTES: usize = u16::MAX as usize;
 /// use edskit_types::{Index, SubIndex};
 /// let text = b"[1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\nDefaultValue=1000\n";
 /// let layout = lay_out(&Datasheet::parse(text), &SideFile::default()).unwrap();
-/// assert_eq!(layout.defaults, 1000_u16.to_le_bytes());
-/// assert!(layout.table().find(Index(0x1017), SubIndex(0)).is_ok());
+/// let heartbeat = layout.table().find(Index(0x1017), SubIndex(0)).unwrap();
+/// assert_eq!(layout.default_of(&layout.entries[usize::from(heartbeat.0)]), 1000_u16.to_le_bytes());
+/// assert_eq!(layout.assumptions.len(), 3, "1000h, 1001h and 1018h are missing");
 /// ```
 #[derive(Clone, Debug)]
 pub struct Layout {
@@ -63,7 +67,13 @@ pub struct Layout {
     pub mappings: Vec<Mapping>,
     /// The name of the product, where the file has one.
     pub product: Option<String>,
-    /// What is worth knowing about the dictionary, but does not stand against it.
+    /// The COB-IDs of power-on, in ascending order of their entries.
+    pub cob_ids: Vec<CobIdParameter>,
+    /// What was read otherwise than it is written, and what the file leaves out and CiA 301 gives.
+    pub assumptions: Vec<Problem>,
+    /// What the file says of an entry, and the dictionary cannot have: types, accesses and values that nobody can read.
+    pub lost: Vec<Problem>,
+    /// What else is worth knowing about the dictionary, but does not stand against it.
     pub notes: Vec<Problem>,
 }
 
@@ -119,17 +129,23 @@ impl Layout {
 
 /// Lays out the object dictionary of a datasheet.
 ///
-/// What the file says wrongly becomes a note and counts as not said: it is the linter's task to refuse such a file.
+/// What is written wrongly is read as it was meant, where that is certain; what nobody can read counts as not said
+/// ([`Layout::lost`]). What the file of a device leaves out in 1000h to 1FFFh has the default of CiA 301, and the mandatory
+/// objects that it lacks are added ([`Layout::assumptions`]); a DCF says what is configured, and gets neither.
 ///
 /// # Errors
 /// What makes a dictionary impossible: more entries or bytes than can be addressed, and a side-file that contradicts the
 /// EDS.
 pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Problem>> {
-    let gather::Gathered { items, mut notes, mut errors } = gather::items(sheet, side_file);
+    let gather::Gathered { items, mut notes, mut lost, mut assumptions, mut errors } =
+        gather::items(sheet, side_file);
     notes.extend(unused(&items, side_file));
-    // In the order of the files, and once where many compact sub-objects are described together.
-    notes.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
-    notes.dedup();
+    assumptions.extend(assumptions::misspelt(sheet));
+    for problems in [&mut notes, &mut lost, &mut assumptions] {
+        // In the order of the files, and once where many compact sub-objects are described together.
+        problems.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
+        problems.dedup();
+    }
     if items.len() > MOST_ENTRIES {
         let message = format!("this is one entry more than the {MOST_ENTRIES} that a dictionary can have");
         errors.extend(items.last().map(|item| problem_at(sheet, side_file, &item.source, message)));
@@ -170,11 +186,14 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
         fingerprint: fingerprint(&entries),
         entries,
         mappings,
+        cob_ids: cob_ids::read(&items, sheet.document()),
         constants,
         defaults,
         limits,
         dummies: dummies(sheet),
         product: product(sheet),
+        assumptions,
+        lost,
         notes,
         sources: items.into_iter().map(|item| item.source).collect(),
     })

@@ -270,7 +270,7 @@ fn checks(layout: &Layout, naming: &Naming) -> Vec<CheckRow> {
     };
     let number = |entry: MappingEntry| format!("0x{:04X}_{:04X}", entry.0 >> 16, entry.0 & 0xFFFF);
     let mut checks = Vec::new();
-    for mapping in layout.mappings.iter().filter(|mapping| !mapping.entries.is_empty()) {
+    for mapping in layout.mappings.iter().filter(|mapping| mapping.is_valid && !mapping.entries.is_empty()) {
         let right = match mapping.direction {
             PdoDirection::Receive => "RPDO",
             PdoDirection::Transmit => "TPDO",

@@ -32,8 +32,11 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     };
     let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
     let settings = Settings { node_id: Some(node_id), ..layout.settings };
-    let mut warnings = warnings_of(&layout);
-    warnings.extend(refused::problems(&layout, settings));
+    let mut warnings = warnings_of(&layout, node_id);
+    // A COB-ID that cannot be used is named already, in words of its own.
+    let named: Vec<_> = layout.cob_id_problems(Some(node_id)).into_iter().map(|problem| problem.span).collect();
+    let refused = refused::problems(&layout, settings);
+    warnings.extend(refused.into_iter().filter(|problem| !named.contains(&problem.span)));
     let (shown, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
     print_problems(shown, &naming, streams)?;
     if !others.is_empty() {
@@ -73,11 +76,13 @@ struct Loaded {
     naming: Naming,
 }
 
-/// What the node does without, although the file describes it.
-fn warnings_of(layout: &Layout) -> Vec<Problem> {
+/// What was assumed, which services are not in use, and what else the node does without, although the file describes it.
+fn warnings_of(layout: &Layout, node_id: NodeId) -> Vec<Problem> {
     let mappings = layout.mapping_problems();
     let without = mappings.into_iter().map(|problem| Problem { severity: Severity::Warning, ..problem });
-    layout.notes.iter().cloned().chain(without).collect()
+    let cob_ids = layout.cob_id_problems(Some(node_id));
+    let said = layout.lost.iter().chain(&layout.notes).cloned();
+    layout.assumptions.iter().cloned().chain(cob_ids).chain(said).chain(without).collect()
 }
 
 /// Reads a file with its side-file and lays its dictionary out.

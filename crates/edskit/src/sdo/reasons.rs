@@ -5,7 +5,7 @@ use crate::cli::TransferKind;
 use crate::live::KnownDevice;
 use crate::value::size;
 use edskit_host::sdo::SdoError;
-use edskit_model::{DictionaryEntry, Value};
+use edskit_model::{DictionaryEntry, Field, Value};
 use edskit_types::{AbortCode, AccessType, CobId, DataType, Index, NodeId, SubIndex};
 
 /// What was asked for.
@@ -170,7 +170,7 @@ fn on_limits(entry: DictionaryEntry<'_>, file: &str) -> Option<String> {
             .ok()
             .or_else(|| value.real(data_type).map(|value| value.to_string()))
     };
-    let (low, high) = entry.limits();
+    let [low, high] = entry.limits().map(|limit| limit.and_then(Field::known));
     match (limit(low), limit(high)) {
         (Some(low), Some(high)) => Some(format!("{file} allows {low} to {high}.")),
         (Some(low), None) => Some(format!("{file} allows {low} and more.")),

@@ -1,6 +1,6 @@
 //! What several rules ask about the structure of an object.
 
-use crate::inline_comment;
+use edskit_model::meant::value_length;
 use crate::{Context, Variable};
 use edskit_model::{Entry, Object, Section, SectionKind, SubObject};
 use edskit_types::{Index, ObjectCode, SubIndex};
@@ -69,7 +69,7 @@ pub(super) fn fixed_code(index: Index) -> Option<ObjectCode> {
 /// Whether a value is left to another rule: SYN012 for text behind it, SYN020 to SYN022 for a formula.
 pub(super) fn belongs_elsewhere(entry: Entry<'_>) -> bool {
     let raw = entry.raw();
-    inline_comment::value_length(raw).is_some() || raw.contains(&b'$')
+    value_length(raw).is_some() || raw.contains(&b'$')
 }
 
 /// The object of a section that is named like a sub-object with a sub-index above FFh (OBJ027).

@@ -1,5 +1,5 @@
 use crate::rule::rule;
-use crate::similar::nearest;
+use edskit_model::nearest;
 use crate::{Context, Edit, Report, Severity};
 use edskit_model::{Entry, Key, KeyGroup, KeyName, Section};
 use edskit_types::Index;

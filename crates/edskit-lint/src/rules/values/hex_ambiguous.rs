@@ -52,7 +52,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(data_type) = variable.standard_type.filter(ambiguous) else { return };
     let mut fields = Vec::new();
     each_value(context, variable, |_, field| {
-        if let Ok(value @ (Value::Integer(_) | Value::RealBits(_))) = field.value
+        if let Some(value @ (Value::Integer(_) | Value::RealBits(_))) = field.known()
             && let Some(readings) = Readings::of(value, data_type, NodeId::MIN)
             && readings.is_ambiguous()
         {
@@ -97,9 +97,9 @@ fn report_values(fields: &[(Field<'_, Value<'_>>, Readings)], data_type: DataTyp
 
 /// The literal as a number, in all its digits.
 fn as_number(field: Field<'_, Value<'_>>) -> String {
-    match field.value {
-        Ok(Value::Integer(number)) => number.value().to_string(),
-        Ok(Value::RealBits(bits)) => bits.to_string(),
+    match field.known() {
+        Some(Value::Integer(number)) => number.value().to_string(),
+        Some(Value::RealBits(bits)) => bits.to_string(),
         _ => String::new(),
     }
 }
