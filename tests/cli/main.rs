@@ -10,6 +10,7 @@ mod help;
 mod lint;
 mod neighbours;
 mod own_files;
+mod pages;
 mod profiles;
 mod run;
 mod settings;

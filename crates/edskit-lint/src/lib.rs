@@ -6,6 +6,7 @@
 //!
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
+mod conflicts;
 mod context;
 mod described;
 mod edits;
@@ -17,6 +18,7 @@ mod linter;
 mod listing;
 mod missing;
 mod neighbours;
+mod numbering;
 mod odd_lines;
 mod pdos;
 mod peers;
@@ -30,6 +32,7 @@ mod testing;
 mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
+pub use edskit_model::nearest;
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
@@ -41,4 +44,3 @@ pub use rule::{
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};
-pub use edskit_model::nearest;

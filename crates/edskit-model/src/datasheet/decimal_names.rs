@@ -18,20 +18,14 @@ impl Section<'_> {
     }
 }
 
-impl Object<'_> {
-    /// Whether the names of its sub-objects count in decimal.
-    pub fn has_decimal_sub_indices(self) -> bool {
-        self.sub_objects().any(|sub| sub.section().has_decimal_sub_index())
-    }
-}
-
 /// Gives sub-objects with decimal names the sub-index that was meant; whether there are any.
 pub(super) fn read(sheet: &mut Datasheet) -> bool {
     let mut found: Vec<(u32, SectionKind)> = Vec::new();
     let mut beyond = None;
     for object in sheet.objects() {
-        let has_gap = object.sub_objects().any(|sub| sub.sub_index().0 >= 0x10 && sub.sub_index().0 != STRUCTURE)
-            && object.sub_objects().all(|sub| !(0xA..=0xF).contains(&sub.sub_index().0));
+        let has_gap =
+            object.sub_objects().any(|sub| sub.sub_index().0 >= 0x10 && sub.sub_index().0 != STRUCTURE)
+                && object.sub_objects().all(|sub| !(0xA..=0xF).contains(&sub.sub_index().0));
         if has_gap {
             // Names of three digits are no sub-objects as long as they are read in hexadecimal.
             let beyond = beyond.get_or_insert_with(|| beyond_ff(sheet));
@@ -85,10 +79,12 @@ fn decimal_names(object: Object<'_>, beyond: &[(Index, u8, u32)]) -> Vec<(u32, S
 /// some that only the decimal names have.
 fn counts_to(object: Object<'_>, highest: u8) -> bool {
     let Some(sub0) = object.sub_object(SubIndex(0)) else { return false };
-    let said = sub0.value().and_then(|field| field.entry.unsigned::<u8>().known());
     let index = object.index();
     let is_mapping = index.is_rpdo_mapping() || index.is_tpdo_mapping();
-    said.is_some_and(|said| said == highest || (is_mapping && (0xA..=highest.min(0xF)).contains(&said)))
+    let fits = |said: u8| said == highest || (is_mapping && (0xA..=highest.min(0xF)).contains(&said));
+    // A count that changes while the device runs has its largest value as a limit.
+    let said = [sub0.value(), sub0.high_limit()].into_iter().flatten();
+    said.filter_map(|field| field.entry.unsigned::<u8>().known()).any(fits)
 }
 
 /// The sections named like a sub-object with a decimal number from 100 to 254.
@@ -100,7 +96,8 @@ fn beyond_ff(sheet: &Datasheet) -> Vec<(Index, u8, u32)> {
         let (object, digits) = name.split_once("sub")?;
         let SectionKind::Object(index) = SectionKind::of(object.as_bytes()) else { return None };
         let is_decimal = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
-        let sub_index = digits.parse().ok().filter(|sub_index| is_decimal && (100..STRUCTURE).contains(sub_index))?;
+        let sub_index =
+            digits.parse().ok().filter(|sub_index| is_decimal && (100..STRUCTURE).contains(sub_index))?;
         Some((index, sub_index, section.id()))
     });
     named.collect()
@@ -132,7 +129,14 @@ mod tests {
         for last in [10, 11, 20, 99, 100, 120, 254] {
             let sheet = sheet("6401", &last.to_string(), decimal(last));
             assert_eq!(sub_indices(&sheet), (0..=last).collect::<Vec<_>>());
-            assert!(sheet.objects().next().unwrap().has_decimal_sub_indices());
+            assert!(
+                sheet
+                    .objects()
+                    .next()
+                    .unwrap()
+                    .sub_objects()
+                    .any(|sub| sub.section().has_decimal_sub_index())
+            );
             let value = sheet.dictionary_entry(Index(0x6401), SubIndex(last)).unwrap().value().unwrap();
             let written = i128::from_str_radix(&last.to_string(), 16).unwrap();
             assert_eq!(value.integer(edskit_types::DataType::Unsigned16, None), Ok(written));

@@ -1,6 +1,6 @@
 //! The grammar of commands on a live bus.
 
-use super::{LogFormat, parse_node_id};
+use super::{LogFormat, one_file, parse_node_id};
 use crate::value::ValueType;
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use edskit_host::Address;
@@ -18,7 +18,7 @@ const HUB_WITH_REMOTE_FRAMES: &str = "slcan:127.0.0.1:29537";
 #[derive(Args, Debug)]
 pub(crate) struct RunArguments {
     /// An EDS or DCF; or `gateway`, the Heinzmann CANopen gateway, which is built in (a file of that name is `./gateway`)
-    #[arg(value_hint = ValueHint::FilePath)]
+    #[arg(value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) file: PathBuf,
     /// The node-ID; that of a DCF if it has one, else 1. That of the gateway is its parameter P427
     #[arg(long, value_parser = parse_node_id)]
@@ -42,10 +42,10 @@ pub(crate) struct RunArguments {
     #[arg(long, value_enum)]
     pub(crate) log: Option<LogFormat>,
     /// The gateway's parameters, in a file as `edskit config check` takes it; without it each has its default
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) params: Option<PathBuf>,
     /// What happens to the gateway, and when (docs/gateway.md)
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) scenario: Option<PathBuf>,
     /// Run the gateway for so many seconds of virtual time, on a bus of its own and without waiting
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["bus", "listen", "bit_rate"])]
@@ -163,7 +163,7 @@ pub(crate) struct SdoPlaceArguments {
     #[arg(value_name = "INDEX[:SUB]")]
     pub(crate) place: String,
     /// The EDS or DCF of the node: names, types, and better reasons where something is refused
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) eds: Option<PathBuf>,
     /// The type of the value: u8..u64, i8..i64, f32, f64, bool, string, unicode, hex, time, duration
     #[arg(long = "type", value_name = "TYPE")]

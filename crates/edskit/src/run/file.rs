@@ -34,7 +34,8 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     let settings = Settings { node_id: Some(node_id), ..layout.settings };
     let mut warnings = warnings_of(&layout, node_id);
     // A COB-ID that cannot be used is named already, in words of its own.
-    let named: Vec<_> = layout.cob_id_problems(Some(node_id)).into_iter().map(|problem| problem.span).collect();
+    let named: Vec<_> =
+        layout.cob_id_problems(Some(node_id)).into_iter().map(|problem| problem.span).collect();
     let refused = refused::problems(&layout, settings);
     warnings.extend(refused.into_iter().filter(|problem| !named.contains(&problem.span)));
     let (shown, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
