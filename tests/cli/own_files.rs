@@ -56,6 +56,27 @@ fn the_right_command_is_named() {
 }
 
 #[test]
+fn options_name_it_too() {
+    let folder = Folder::new("own-files-options");
+    let eds = folder.write("a.eds", EDS);
+    let output = folder.write("generated/x", "");
+    let generated = output.trim_end_matches("/x");
+    for (name, text, command) in KINDS {
+        let path = folder.write(&format!("of-{name}"), text);
+        for (option, wanted) in [
+            (&["lint", &eds, "--config", &path][..], "edskit.toml"),
+            (&["lint", "--isolated", &eds, "--profile", &path], "profile.toml"),
+            (&["lint", "--isolated", &eds, "--baseline", &path], "baseline.json"),
+            (&["generate", &eds, "-o", generated, "--side-file", &path], "side-file.toml"),
+            (&["run", "gateway", "--simulate", "1", "--params", &path], "parameters.toml"),
+        ] {
+            let all = edskit(option).all();
+            assert_eq!(all.contains(command), name != wanted, "{option:?}: {all}");
+        }
+    }
+}
+
+#[test]
 fn an_eds_is_no_parameter_file_and_no_scenario() {
     let folder = Folder::new("own-files-eds");
     let path = folder.write("a.eds", EDS);

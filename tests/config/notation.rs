@@ -53,6 +53,10 @@ fn the_help_has_the_line_as_it_has_to_be() {
         ("gateway", "427 = 7Fh", "write `427 = 0x7F`"),
         ("gateway", "427 = 5 ; our node", "write `427 = 5`"),
         ("gateway", "427: 5", "write `427 = 5`"),
+        ("gateway", "427 = 5,", "write `427 = 5`"),
+        ("gateway", "\"427\" \"CanOpenMyNodeID\" = 1", "write `\"427 CanOpenMyNodeID\" = 1`"),
+        ("gateway", "400 = .5", "write `400 = 0.5`"),
+        ("gateway", "400 = 1.", "write `400 = 1.0`"),
         ("gateway", "427 == 5", "write `427 = 5`"),
         ("gateway", "4426 = ein", "write `4426 = 1`"),
         ("gateway", "4426 = true", "write `1`"),
@@ -223,6 +227,11 @@ fn scenarios_are_answered_in_the_same_way() {
         ("gateway = { 16404 = 5E2 }", "write `0x5E2`"),
         ("governor = { CanOpRPDO1-4Cyc (1) = 100 }", "write `\"CanOpRPDO1-4Cyc(1)\" = 100`"),
         ("[step.gateway]\n429 = 1000 ms", "write `429 = 1000`"),
+        // TOML, and probably another number than it looks.
+        (
+            "gateway = { 16404 = 282 }",
+            "write `0x11A`, or `0x282` if the 282h of the manual's notation is meant",
+        ),
         // Advice names what stands in a step.
         ("gateway = { 16460 = 3 }", "write it in `governor = { .. }`"),
         ("gateway = { CanCommCMOn = 1 }", "write it in `governor = { .. }`"),

@@ -146,6 +146,12 @@ pub(crate) fn own_file(bytes: &[u8]) -> Option<String> {
     Some(format!("this is {}: {}", own.name(), own.command()))
 }
 
+/// The same where one kind of these files is wanted, and the file is another one.
+pub(crate) fn another_own_file(bytes: &[u8], wanted: OwnFile) -> Option<String> {
+    let is_wanted = std::str::from_utf8(bytes).ok().and_then(OwnFile::of) == Some(wanted);
+    own_file(bytes).filter(|_| !is_wanted)
+}
+
 /// Why a file could not be read.
 pub(crate) fn unreadable(name: &str, error: &io::Error) -> String {
     match error.kind() {

@@ -292,15 +292,6 @@ fn uncompared_bit_timings(reading: &Reading, problems: &mut Vec<Problem>) {
 }
 
 fn decimal_identifiers(reading: &Reading, told: &[Parameter], problems: &mut Vec<Problem>) {
-    for decimal in Decimal::all(reading).filter(|decimal| !told.contains(&decimal.parameter)) {
-        let message = format!(
-            "{} is written in {} digits, and is {}",
-            decimal.parameter,
-            decimal.digits(),
-            decimal.amount()
-        );
-        let problem =
-            Problem::new(problem::DECIMAL_IDENTIFIER, reading.label(decimal.parameter, ""), message);
-        problems.push(problem.help(decimal.help()));
-    }
+    let untold = Decimal::all(reading).filter(|decimal| !told.contains(&decimal.parameter));
+    problems.extend(untold.map(|decimal| decimal.problem(reading.label(decimal.parameter, ""))));
 }

@@ -1,7 +1,9 @@
 //! Identifiers that are not written in hexadecimal digits, as the manual and the PC tool show them.
 
+use super::problem::{self, Problem};
 use super::reading::{Reading, Setting};
 use edskit_devices::gateway::{Amount, Parameter, Quantity};
+use edskit_lint::Label;
 
 /// Such an identifier.
 pub(super) struct Decimal {
@@ -23,7 +25,7 @@ impl Decimal {
         reading.setting(parameter).and_then(Self::of_setting)
     }
 
-    fn of_setting(setting: &Setting) -> Option<Self> {
+    pub(super) fn of_setting(setting: &Setting) -> Option<Self> {
         let Setting { parameter, value, radix, .. } = *setting;
         // Up to 9 all notations are the same, but for one that has a prefix of its own.
         let is_clear = radix == 16 || (radix == 10 && value <= 9);
@@ -40,7 +42,14 @@ impl Decimal {
         Some(Self { parameter, value, radix, other })
     }
 
-    pub(super) fn digits(&self) -> &'static str {
+    /// What there is to say where no rule is run into.
+    pub(super) fn problem(&self, place: Label) -> Problem {
+        let (parameter, digits) = (self.parameter, self.digits());
+        let message = format!("{parameter} is written in {digits} digits, and is {}", self.amount());
+        Problem::new(problem::DECIMAL_IDENTIFIER, place, message).help(self.help())
+    }
+
+    fn digits(&self) -> &'static str {
         match self.radix {
             2 => "binary",
             8 => "octal",
@@ -48,12 +57,12 @@ impl Decimal {
         }
     }
 
-    pub(super) fn amount(&self) -> Amount {
+    fn amount(&self) -> Amount {
         self.parameter.amount(self.value)
     }
 
     /// What to write, whichever of the two is meant.
-    pub(super) fn help(&self) -> String {
+    fn help(&self) -> String {
         let value = self.value;
         match self.other {
             Some(number) => {

@@ -38,7 +38,7 @@ impl<'a> Key<'a> {
         }
         let end = body.find(|character: char| !character.is_ascii_digit()).unwrap_or(body.len());
         let (digits, rest) = body.split_at(end);
-        let name = rest.trim_start_matches([' ', '\t', '\u{A0}', '_', '-', ':', ';', ',', '.']);
+        let name = rest.trim_start_matches([' ', '\t', '\u{A0}', '_', '-', ':', ';', ',', '.', '"']);
         let digits = digits.trim_start_matches('0');
         Self {
             number: Some(if digits.is_empty() { "0" } else { digits }),

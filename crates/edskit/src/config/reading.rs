@@ -1,5 +1,6 @@
 //! A parameter file, read: which parameters it sets to what, and where.
 
+use super::decimal::Decimal;
 use super::key::Place;
 use super::other_file;
 use super::problem::{self, Problem};
@@ -46,6 +47,14 @@ pub(crate) struct Setting {
 
 /// Entries of a table in the order of the file.
 pub(crate) type Entries<'t, 'i> = Vec<(&'t str, Span, &'t Spanned<DeValue<'i>>)>;
+
+impl Setting {
+    /// What there is to say of an identifier that is not written in hexadecimal digits.
+    pub(crate) fn decimal(&self) -> Option<Problem> {
+        Decimal::of_setting(self)
+            .map(|decimal| decimal.problem(Label { span: self.span, text: String::new() }))
+    }
+}
 
 impl Reading {
     pub(super) fn of(bytes: &[u8]) -> Self {

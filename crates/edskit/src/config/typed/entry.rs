@@ -142,6 +142,7 @@ fn parameter(
             (at, format!("`{}` is no number of TOML", written.value))
         }
         (Form::Entry, true) => (at, format!("`{}` is written with {reasons}", written.value)),
+        (Form::Entry, false) if key == written.key => (at, "an entry ends behind its value".to_owned()),
         (Form::Entry, false) => (
             spans(written.key_text),
             format!("`{}` is no key: with blanks or parentheses it stands in quotation marks", written.key),
@@ -183,7 +184,7 @@ fn signal(written: &Written<'_>, at: Span) -> Option<Problem> {
 }
 
 fn device(written: &Written<'_>, at: Span) -> Option<Problem> {
-    let is_known = written.key == "device" && written.value.trim_matches(['"', '\'']) == DEVICE;
+    let is_known = written.key == "device" && written.value.trim_matches(['"', '\'', ';', ' ']) == DEVICE;
     let message = "the name of the device is a text, which stands in quotation marks";
     let problem = Problem::at(problem::MANUAL_NOTATION, at, message);
     is_known.then(|| problem.help(format!("write `device = \"{DEVICE}\"`")))

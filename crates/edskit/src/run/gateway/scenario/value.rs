@@ -232,6 +232,7 @@ fn parameters(
         return Vec::new();
     };
     let settings = parameters_of(owner, entries(table), context.text, Place::Step, problems);
+    problems.extend(settings.iter().filter_map(|(setting, _)| setting.decimal()));
     settings.into_iter().map(|(setting, value)| Action::Set(setting.parameter, value)).collect()
 }
 
