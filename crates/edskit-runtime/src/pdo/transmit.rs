@@ -49,6 +49,7 @@ impl Tpdo {
         sample: None,
     };
 
+    #[inline(never)]
     fn meaning(&self) -> Transmission {
         self.parameters.transmission.meaning(PdoDirection::Transmit)
     }
@@ -68,6 +69,7 @@ impl Tpdo {
     }
 
     /// The time between two transmissions without an event, which only types FEh and FFh have; 0 for none.
+    #[inline(never)]
     fn event_period(&self) -> Microseconds {
         if self.is_event_driven() { self.parameters.event_time() } else { Microseconds(0) }
     }
