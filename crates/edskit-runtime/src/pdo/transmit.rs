@@ -239,8 +239,10 @@ impl Context<'_> {
             return;
         }
         let mut without_room = None;
-        let first = usize::from(self.core.next_tpdo);
-        for place in (first..self.tpdos.len()).chain(0..first) {
+        let count = self.tpdos.len();
+        for step in 0..count {
+            let place = usize::from(self.core.next_tpdo) + step;
+            let place = if place < count { place } else { place - count };
             let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
             if tpdo.event.is_due(self.now) {
                 tpdo.event = tpdo.event.again(self.now, tpdo.event_period());
