@@ -66,7 +66,11 @@ mod tests {
                 "[{section}]\nParameterName=x\nDataType={data_type}\nAccessType=rw\nDefaultValue={value}\n"
             )
         };
+        let record = |section: &str| format!("[{section}]\nParameterName=x\nObjectType=9\nSubNumber=2\n");
         let eds = [
+            record("1201"),
+            record("1400"),
+            record("1801"),
             object("1005", 7, "0x701"),
             object("1014", 7, "$NODEID+0x80"),
             object("1019", 5, "1"),
