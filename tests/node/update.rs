@@ -2,11 +2,10 @@
 
 use edskit_codegen::{Layout, LoadedDictionary, parse};
 use edskit_host::MemoryStorage;
-use edskit_runtime::{Application, Emergency, Entry, Frame, Instant, Node, Objects, Settings};
+use edskit_runtime::{Application, Emergency, Entry, Flags, Frame, Instant, Node, Objects, Settings};
 use edskit_types::{CanId, Index, NodeId, SubIndex};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 /// The indices that a revision may describe: parameters of the communication, the manufacturer and the profile.
 const PLACES: [u16; 10] = [0x1014, 0x1017, 0x1019, 0x2000, 0x2001, 0x2002, 0x2003, 0x2004, 0x6000, 0x6001];
@@ -46,13 +45,13 @@ fn revision() -> impl Strategy<Value = Revision> {
 }
 
 fn layout((objects, has_groups): &Revision) -> Layout {
-    let mut eds = String::new();
-    let mut side_file = String::from("[storage]\n");
+    let mut eds = Vec::new();
+    let mut side_file = vec!["[storage]".to_owned()];
     let subs = if *has_groups { &[1, 2, 4][..] } else { &[1] };
-    writeln!(eds, "[1010]\nParameterName=Store\nObjectType=8\nSubNumber={}", subs.len() + 1).unwrap();
-    writeln!(eds, "[1010sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=4").unwrap();
+    eds.push(format!("[1010]\nParameterName=Store\nObjectType=8\nSubNumber={}", subs.len() + 1));
+    eds.push("[1010sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=4".to_owned());
     for sub in subs {
-        writeln!(eds, "[1010sub{sub}]\nParameterName=s\nDataType=7\nAccessType=rw\nDefaultValue=1").unwrap();
+        eds.push(format!("[1010sub{sub}]\nParameterName=s\nDataType=7\nAccessType=rw\nDefaultValue=1"));
     }
     for (index, object) in objects {
         let Object { data_type, default, is_node_relative, high, group } = object;
@@ -71,16 +70,16 @@ fn layout((objects, has_groups): &Revision) -> Layout {
             _ => u32::from(*default),
         };
         let formula = if *is_node_relative && is_number && *index != 0x1019 { "$NODEID+" } else { "" };
-        writeln!(eds, "[{index:X}]\nParameterName=x\nDataType={data_type}\nAccessType=rw").unwrap();
-        writeln!(eds, "DefaultValue={formula}{default}").unwrap();
+        eds.push(format!("[{index:X}]\nParameterName=x\nDataType={data_type}\nAccessType=rw"));
+        eds.push(format!("DefaultValue={formula}{default}"));
         if let Some(high) = high.filter(|_| is_number && *index >= 0x2000) {
-            writeln!(eds, "HighLimit={high}").unwrap();
+            eds.push(format!("HighLimit={high}"));
         }
         if let Some(group) = group {
-            writeln!(side_file, "\"{index:X}\" = {group}").unwrap();
+            side_file.push(format!("\"{index:X}\" = {group}"));
         }
     }
-    parse(eds.as_bytes(), Some(&side_file)).expect("the revision can be laid out")
+    parse(eds.join("\n").as_bytes(), Some(&side_file.join("\n"))).expect("the revision can be laid out")
 }
 
 /// Notes what the node tells.
@@ -110,7 +109,7 @@ fn values(layout: &Layout, objects: &Objects<'_>) -> BTreeMap<Index, Vec<u8>> {
 /// The default of an entry on a node.
 fn default(layout: &Layout, entry: &Entry, node_id: NodeId) -> Vec<u8> {
     let offset = layout.default_of(entry).to_vec();
-    let is_relative = entry.flags.has(edskit_runtime::Flags::NODE_RELATIVE);
+    let is_relative = entry.flags.has(Flags::NODE_RELATIVE);
     if is_relative { with_node_id(&offset, node_id) } else { offset }
 }
 
@@ -122,9 +121,9 @@ fn with_node_id(offset: &[u8], node_id: NodeId) -> Vec<u8> {
 }
 
 /// Whether a client could write a value.
-fn can_have(layout: &Layout, revision: &Revision, entry: &Entry, value: &[u8]) -> bool {
-    if layout.table().limits(layout.table().find(entry.index, entry.sub_index).unwrap()).is_some() {
-        let high = revision.0[&entry.index.0].high.unwrap();
+fn can_have(revision: &Revision, entry: &Entry, value: &[u8]) -> bool {
+    if entry.flags.has(Flags::LIMITED) {
+        let high = revision.0[&entry.index.0].high.expect("limits come from the revision");
         let mut bytes = [if value.last().is_some_and(|byte| byte & 0x80 != 0) && entry.data_type.is_signed() {
             0xFF
         } else {
@@ -136,7 +135,7 @@ fn can_have(layout: &Layout, revision: &Revision, entry: &Entry, value: &[u8]) -
     match (entry.index.0, entry.data_type.index().0) {
         (0x1019, _) => matches!(value[0], 0 | 2..=240),
         (0x1014, _) => {
-            let cob_id = u32::from_le_bytes(value.try_into().unwrap());
+            let cob_id = u32::from_le_bytes(value.try_into().expect("1014h has four bytes"));
             let is_restricted = matches!(cob_id & 0x7FF, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..=0x77F | 0x780..=0x7FF);
             cob_id & 0x3FFF_F800 == 0 && (cob_id & 0x8000_0000 != 0 || !is_restricted)
         }
@@ -158,10 +157,10 @@ proptest! {
         new in revision(),
         is_same in prop::bool::weighted(0.2),
         stored in prop::collection::btree_map(prop::sample::select(&PLACES[..]), prop::collection::vec(any::<u8>(), 8), 0..8),
-        nodes in (1..=127_u8, 1..=127_u8),
+        nodes in [1..=127_u8, 1..=127_u8],
     ) {
         let new = if is_same { old.clone() } else { new };
-        let (first, second) = (NodeId::new(nodes.0).unwrap(), NodeId::new(nodes.1).unwrap());
+        let [first, second] = nodes.map(|node_id| NodeId::new(node_id).expect("it is a node-ID"));
         let (old_layout, new_layout) = (layout(&old), layout(&new));
         let mut storage = MemoryStorage::default();
 
@@ -169,13 +168,13 @@ proptest! {
         node.poll(Instant(0), &mut Notes::default());
         for (index, value) in &stored {
             if let Ok(position) = old_layout.table().find(Index(*index), SubIndex(0)) {
-                let size = usize::from(old_layout.table().entry(position).unwrap().size);
+                let size = usize::from(old_layout.entries[usize::from(position.0)].size);
                 node.objects().store(position, &value[..size.min(value.len())]);
             }
         }
         let saved = values(&old_layout, &node.objects());
         let request = [0x23, 0x10, 0x10, 1, b's', b'a', b'v', b'e'];
-        let request = Frame::new(CanId::standard(0x600 + u16::from(nodes.0)).unwrap(), &request);
+        let request = Frame::new(CanId::standard(0x600 + u16::from(first.get())).expect("it has eleven bits"), &request);
         node.receive(Instant(1), &request, &mut Notes::default());
 
         let mut notes = Notes::default();
@@ -190,7 +189,7 @@ proptest! {
         for entry in old_layout.entries.iter().filter(|entry| entry.flags.group().is_some()) {
             let was = &saved[&entry.index];
             let offset = old_layout.default_of(entry);
-            let follows = entry.flags.has(edskit_runtime::Flags::NODE_RELATIVE) && *was == default(&old_layout, entry, first);
+            let follows = entry.flags.has(Flags::NODE_RELATIVE) && *was == default(&old_layout, entry, first);
             let value = if follows { with_node_id(offset, second) } else { was.clone() };
             let place = new_layout.table().find(entry.index, SubIndex(0)).ok();
             let place = place.and_then(|position| new_layout.table().entry(position));
@@ -198,7 +197,7 @@ proptest! {
             let fits = |place: &&Entry| {
                 let size = usize::from(place.size);
                 let has_length = place.data_type.is_string();
-                (value.len() == size || (has_length && value.len() < size)) && can_have(&new_layout, &new, place, &value)
+                (value.len() == size || (has_length && value.len() < size)) && can_have(&new, place, &value)
             };
             match place.filter(fits) {
                 Some(_) => drop(expected.insert(entry.index, value.clone())),

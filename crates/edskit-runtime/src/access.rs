@@ -60,8 +60,9 @@ impl<'a> Context<'a> {
         self.objects.check_value(position, entry, data)?;
         let is_of_services = is_communication(entry.index);
         if is_of_services {
-            self.check_parameter(entry, data)?;
+            // Of a value that cannot be, at a time when none can, the time is said.
             self.check_change(entry, data)?;
+            self.check_parameter(entry, data)?;
         }
         self.app.before_write(&mut self.objects, entry, data)?;
         if is_command(entry) {

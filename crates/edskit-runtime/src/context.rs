@@ -162,6 +162,7 @@ impl Context<'_> {
 
     /// The identifier in an entry whose bit 31 says that the service does not exist; `None` where it says so, and where the
     /// value is one that a client could not write.
+    #[inline(never)]
     pub(crate) fn valid_can_id(&self, index: Index, sub_index: u8) -> Option<CanId> {
         let cob_id = self.objects.value(index, sub_index).map(CobId)?;
         (cob_id.is_valid() && self.check_cob_id(cob_id).is_ok()).then(|| cob_id.can_id())

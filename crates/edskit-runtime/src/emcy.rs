@@ -166,6 +166,7 @@ impl Context<'_> {
         }
     }
 
+    #[inline(never)]
     fn occurred(&mut self, error: Error, info: [u8; 5]) {
         self.tell(error.code, error.register | Error::GENERIC, info);
         self.remember(error.code, info);

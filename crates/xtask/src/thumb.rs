@@ -17,8 +17,8 @@ const FIRMWARE: &str = "tests/firmware";
 
 /// The most bytes of flash that the firmware with every service takes, and of memory that its node takes: what they were
 /// when they were measured last, and a little more for another compiler.
-const MOST_FLASH: u64 = 27_500;
-const MOST_MEMORY: u64 = 1_600;
+const MOST_FLASH: u64 = 31_800;
+const MOST_MEMORY: u64 = 1_700;
 
 /// Whether the crates of a device compile without an operating system.
 pub(crate) fn no_std() -> Outcome {

@@ -128,3 +128,53 @@ impl Application for MemoryDevice {
         self.events.push(DeviceEvent::BitRate(bit_rate));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use edskit_runtime::{Flags, Table};
+    use edskit_types::DataType;
+
+    #[test]
+    fn the_old_content_stays_until_the_new_one_is_complete() {
+        let entry = Entry {
+            index: Index(0x2000),
+            sub_index: SubIndex(0),
+            data_type: DataType::Domain,
+            flags: Flags::READ.and(Flags::WRITE),
+            offset: 0,
+            size: 0,
+        };
+        let entries = [entry];
+        let table = Table {
+            entries: &entries,
+            constants: &[],
+            defaults: &[],
+            limits: &[],
+            dummies: 0,
+            fingerprint: 0,
+        };
+        let mut objects = Objects::new(&table, &mut []);
+        let mut device = MemoryDevice::default();
+        let content = |device: &mut MemoryDevice, objects: &mut Objects<'_>| {
+            let mut buffer = [0; 20];
+            let count = device.read_domain(objects, &entry, 0, &mut buffer).unwrap();
+            buffer[..count].to_vec()
+        };
+        device.write_domain(&mut objects, &entry, 0, b"old", false).unwrap();
+        assert_eq!(content(&mut device, &mut objects), b"", "it is not complete");
+        device.write_domain(&mut objects, &entry, 3, b"", true).unwrap();
+        assert_eq!(content(&mut device, &mut objects), b"old");
+        device.write_domain(&mut objects, &entry, 0, b"newer", false).unwrap();
+        device.domain_broken_off(&mut objects, &entry, 5);
+        assert_eq!(content(&mut device, &mut objects), b"old");
+        // Two clients: the second one begins, so the first one cannot go on, and its end does not harm the second one.
+        device.write_domain(&mut objects, &entry, 0, b"first", false).unwrap();
+        device.write_domain(&mut objects, &entry, 0, b"no", false).unwrap();
+        let refused = device.write_domain(&mut objects, &entry, 5, b"..", false);
+        assert_eq!(refused, Err(AbortCode::DEVICE_STATE));
+        device.domain_broken_off(&mut objects, &entry, 5);
+        device.write_domain(&mut objects, &entry, 2, b"w", true).unwrap();
+        assert_eq!(content(&mut device, &mut objects), b"now");
+    }
+}

@@ -83,8 +83,14 @@ impl<'a> Objects<'a> {
 
     /// Gives the entry at `index` and `sub_index` a value, where it exists and can change.
     pub fn set_value<T: Value>(&mut self, index: Index, sub_index: u8, value: T) {
-        if let Ok(position) = self.table.find(index, SubIndex(sub_index)) {
-            value.to_bytes(self.bytes_mut(position));
+        value.to_bytes(self.bytes_mut_at(index, sub_index));
+    }
+
+    #[inline(never)]
+    fn bytes_mut_at(&mut self, index: Index, sub_index: u8) -> &mut [u8] {
+        match self.table.find(index, SubIndex(sub_index)) {
+            Ok(position) => self.bytes_mut(position),
+            Err(_) => &mut [],
         }
     }
 

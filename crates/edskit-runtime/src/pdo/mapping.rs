@@ -111,7 +111,8 @@ impl Context<'_> {
         mapping: MappingEntry,
     ) -> Result<Mapped, AbortCode> {
         let bits = mapping.bits();
-        if self.core.settings.granularity > 1 && bits % self.core.settings.granularity != 0 {
+        let granularity = self.core.settings.granularity;
+        if granularity > 1 && !bits.is_multiple_of(granularity) {
             return Err(AbortCode::NOT_MAPPABLE);
         }
         if mapping.is_dummy() {

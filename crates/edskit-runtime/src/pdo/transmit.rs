@@ -49,6 +49,7 @@ impl Tpdo {
         sample: None,
     };
 
+    #[inline(never)]
     fn meaning(&self) -> Transmission {
         self.parameters.transmission.meaning(PdoDirection::Transmit)
     }
@@ -68,6 +69,7 @@ impl Tpdo {
     }
 
     /// The time between two transmissions without an event, which only types FEh and FFh have; 0 for none.
+    #[inline(never)]
     fn event_period(&self) -> Microseconds {
         if self.is_event_driven() { self.parameters.event_time() } else { Microseconds(0) }
     }
@@ -237,8 +239,10 @@ impl Context<'_> {
             return;
         }
         let mut without_room = None;
-        let first = usize::from(self.core.next_tpdo);
-        for place in (first..self.tpdos.len()).chain(0..first) {
+        let count = self.tpdos.len();
+        for step in 0..count {
+            let place = usize::from(self.core.next_tpdo) + step;
+            let place = if place < count { place } else { place - count };
             let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
             if tpdo.event.is_due(self.now) {
                 tpdo.event = tpdo.event.again(self.now, tpdo.event_period());

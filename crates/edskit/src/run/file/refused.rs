@@ -53,3 +53,38 @@ fn consequence(index: Index, sub_index: SubIndex) -> String {
         _ => "it stays what it is until a client writes another one".to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use edskit_codegen::parse;
+
+    #[test]
+    fn each_value_is_named_with_what_the_node_does_without() {
+        let object = |section: &str, data_type: u8, value: &str| {
+            format!(
+                "[{section}]\nParameterName=x\nDataType={data_type}\nAccessType=rw\nDefaultValue={value}\n"
+            )
+        };
+        let record = |section: &str| format!("[{section}]\nParameterName=x\nObjectType=9\nSubNumber=2\n");
+        let eds = [
+            record("1201"),
+            record("1400"),
+            record("1801"),
+            object("1005", 7, "0x701"),
+            object("1014", 7, "$NODEID+0x80"),
+            object("1019", 5, "1"),
+            object("1201sub1", 7, "0x20000640"),
+            object("1400sub1", 7, "0"),
+            object("1400sub2", 5, "255"),
+            object("1801sub1", 7, "0x185"),
+            object("1801sub2", 5, "241"),
+            object("2000", 1, "1"),
+        ];
+        let layout = parse(eds.concat().as_bytes(), None).expect("it can be laid out");
+        let problems = problems(&layout, layout.settings);
+        let lines: Vec<String> =
+            problems.iter().map(|problem| problem.line("a.eds", "a.toml").to_string()).collect();
+        insta::assert_snapshot!(lines.join("\n"));
+    }
+}

@@ -233,8 +233,8 @@ fn an_overflow_of_the_sdo_transmit_buffer() {
 #[test]
 fn a_bus_that_takes_nothing_overflows_the_buffer_in_truth() {
     let mut bench = Bench::new(&[]);
-    // Answers that nobody takes: the seventeenth does not fit.
-    for _ in 0..17 {
+    // Answers that nobody takes: sixteen fit, the server holds the next one back, and one more is lost.
+    for _ in 0..18 {
         let request = frame(0x601, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]);
         edskit_runtime::Device::receive(&mut bench.gateway, bench.now, &request);
     }
