@@ -88,9 +88,11 @@ impl<'a> Gate<'a> {
 
     fn is_description(&self, place: Span) -> bool {
         match self.sheet.section_at(place.start).map(|section| section.kind()) {
-            Some(SectionKind::Object(index) | SectionKind::SubObject(index, _) | SectionKind::CompactValues(index)) => {
-                index >= Index::DEVICE_TYPE
-            }
+            Some(
+                SectionKind::Object(index)
+                | SectionKind::SubObject(index, _)
+                | SectionKind::CompactValues(index),
+            ) => index >= Index::DEVICE_TYPE,
             _ => false,
         }
     }

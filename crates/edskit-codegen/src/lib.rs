@@ -36,7 +36,9 @@ pub use compile::{Config, compile, write_if_changed};
 pub use edskit_lint::{RuleSet, Severity};
 pub use generate::{Generated, generate, parse};
 pub use identifier::module_name;
-pub use layout::{CobIdParameter, Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out};
+pub use layout::{
+    CobIdParameter, Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out,
+};
 pub use loaded::LoadedDictionary;
 pub use problem::{InputFile, Problem};
 pub use render::{Naming, render};

@@ -95,6 +95,8 @@ mod tests {
     fn what_is_wrong_is_named() {
         assert_eq!(rules_for("ignore = ['VAL999']\n", "a").unwrap_err(), "1: there is no rule `VAL999`");
         assert!(rules_for("\nignore = 5\n", "a").unwrap_err().starts_with("2: invalid type"));
-        assert!(rules_for("[[override]]\nfiles = ['[']\n", "a").unwrap_err().starts_with("1: error parsing glob"));
+        assert!(
+            rules_for("[[override]]\nfiles = ['[']\n", "a").unwrap_err().starts_with("1: error parsing glob")
+        );
     }
 }

@@ -30,6 +30,7 @@ mod testing;
 mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
+pub use edskit_model::nearest;
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
@@ -41,4 +42,3 @@ pub use rule::{
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};
-pub use edskit_model::nearest;

@@ -1,10 +1,10 @@
 //! The engine: it walks a file once and calls each rule at the level it asked for.
 
 use crate::context::{Context, Report, Variable};
+use crate::inline_comment;
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::line_without_equals;
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
-use crate::inline_comment;
 use crate::suppression;
 use crate::{Check, FileKind, Finding, Neighbours, Profile, RuleSet};
 use edskit_model::Datasheet;

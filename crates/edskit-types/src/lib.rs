@@ -63,7 +63,8 @@ pub use cob_id::{CanId, CobId};
 pub use data_type::{DataType, DataTypeKind};
 pub use emergency_code::{EmergencyCode, ErrorRegister};
 pub use identifiers::{
-    Claim, CobIdFault, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole, conflicts,
+    Claim, CobIdFault, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole,
+    conflicts,
 };
 pub use index::{Index, ObjectArea, SubIndex};
 pub use mapping_entry::MappingEntry;

@@ -31,8 +31,14 @@ fn ranges() -> Vec<Defect> {
         value("VAL002", "256 in an UNSIGNED8", "DefaultValue", is_unsigned8, "256"),
         value("VAL002", "0x100 in an UNSIGNED8", "DefaultValue", is_unsigned8, "0x100"),
         value("VAL002", "-1 in an UNSIGNED8", "DefaultValue", is_unsigned8, "-1"),
-        value("VAL002", "256 in an UNSIGNED8, with a comment behind it", "DefaultValue", is_unsigned8, "256 ; too large")
-            .with_consequence("SYN012", "CiA 306 knows no comment behind a value"),
+        value(
+            "VAL002",
+            "256 in an UNSIGNED8, with a comment behind it",
+            "DefaultValue",
+            is_unsigned8,
+            "256 ; too large",
+        )
+        .with_consequence("SYN012", "CiA 306 knows no comment behind a value"),
         Defect::new("VAL002", "256 in an UNSIGNED8, with a comment behind the type", |base| {
             let sections = base.sections_where(is_unsigned8).into_iter();
             let both = sections.filter_map(|section| {
@@ -113,7 +119,10 @@ fn limits() -> Vec<Defect> {
         })
         .by_label(),
         Defect::new("VAL004", "a default above the upper limit of its range type", |base| {
-            let sections = base.sections_where(|section| is_own_value(section) && section.is_type(6));
+            let is_ranged = |section: &Section| {
+                is_own_value(section) && section.is_type(6) && section.value("HighLimit").is_empty()
+            };
+            let sections = base.sections_where(is_ranged);
             let ranged = sections.into_iter().filter_map(|section| {
                 let mutant = Mutant::of(base).set(section.entry("DefaultValue")?, "200");
                 let mutant = mutant.set_too(section.entry("DataType")?, "0x00A0");

@@ -1,7 +1,8 @@
 use super::*;
 
 /// An object of a configured device, to which nothing is added.
-const EDS: &str = "[1017]\nParameterName=Heartbeat\nObjectType=7\nDataType=6\nAccessType=rw\n[DeviceComissioning]\n";
+const EDS: &str =
+    "[1017]\nParameterName=Heartbeat\nObjectType=7\nDataType=6\nAccessType=rw\n[DeviceComissioning]\n";
 
 /// A folder of one test, gone when the test is.
 struct Folder(PathBuf);
@@ -80,7 +81,10 @@ fn findings_are_told_with_their_place() {
     assert!(!errors.contains("DEV001") && !folder.0.join("out/a.rs").exists(), "{errors}");
     folder.write("a.eds", EDS);
     let told = folder.run(&Config::new(), &eds);
-    assert!(told.contains("cargo::warning=<folder>/a.eds:1:1: DEV001 ") && !told.contains("cargo::error"), "{told}");
+    assert!(
+        told.contains("cargo::warning=<folder>/a.eds:1:1: DEV001 ") && !told.contains("cargo::error"),
+        "{told}"
+    );
     assert!(folder.0.join("out/a.rs").exists());
     let mut rules = RuleSet::none();
     rules.select("STY").unwrap();

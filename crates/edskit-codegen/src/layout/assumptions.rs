@@ -11,7 +11,9 @@ pub(super) fn misspelt(sheet: &Datasheet) -> Option<Problem> {
     let written: String = sheet.text(first.span).chars().take(40).collect();
     let what = match assumed.len() {
         1 => format!("`{written}` is read as it was meant, `{}`", first.text),
-        count => format!("{count} values are read as they were meant, as here `{written}` as `{}`", first.text),
+        count => {
+            format!("{count} values are read as they were meant, as here `{written}` as `{}`", first.text)
+        }
     };
     let help = "`edskit show --meant` with the file lists them, `edskit lint --fix` mends them".to_owned();
     let problem = Problem::in_eds(sheet.document(), Severity::Warning, first.span, what);

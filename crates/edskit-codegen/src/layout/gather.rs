@@ -110,7 +110,11 @@ fn described(
             Err(reason) => reason,
         };
         let message = format!("`{}` is left out: {reason}", shortened(&value.text()));
-        if data_type == DataType::Domain { note(value.value_span(), message) } else { lost(value.value_span(), message) }
+        if data_type == DataType::Domain {
+            note(value.value_span(), message)
+        } else {
+            lost(value.value_span(), message)
+        }
         None
     });
     let limits = if access.is_writable() {

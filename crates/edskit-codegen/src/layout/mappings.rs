@@ -186,9 +186,16 @@ pub(super) fn read(items: &[Item], document: &Document) -> Vec<Mapping> {
         // An entry of 0 names nothing: sub-index 00h may stand for the room for entries, which are mapped later.
         let mapped = mapped.filter(|mapped| mapped.entry != MappingEntry(0));
         let cob_id = Index(object[0].index.0 - DISTANCE);
-        let cob_id = items.binary_search_by_key(&(cob_id, SubIndex(1)), Item::key).ok().map(|found| &items[found]);
+        let cob_id =
+            items.binary_search_by_key(&(cob_id, SubIndex(1)), Item::key).ok().map(|found| &items[found]);
         let is_valid = cob_id.is_some_and(|cob_id| CobId(value(cob_id)).is_valid());
-        mappings.push(Mapping { direction, number, is_valid, place: place(count), entries: mapped.collect() });
+        mappings.push(Mapping {
+            direction,
+            number,
+            is_valid,
+            place: place(count),
+            entries: mapped.collect(),
+        });
     }
     mappings
 }

@@ -423,7 +423,8 @@ fn value(layout: &Layout, index: u16, sub_index: u8) -> (u64, bool) {
 fn without_values(index: &str, subs: &[u8]) -> String {
     let header = object(index, "x", "ObjectType=9");
     let count = object(&format!("{index}sub0"), "n", "DataType=5 AccessType=ro");
-    let elements = subs.iter().map(|sub| object(&format!("{index}sub{sub:X}"), "e", "DataType=7 AccessType=rw"));
+    let elements =
+        subs.iter().map(|sub| object(&format!("{index}sub{sub:X}"), "e", "DataType=7 AccessType=rw"));
     format!("{header}{count}{}", elements.collect::<String>())
 }
 
@@ -434,12 +435,17 @@ fn what_is_meant_is_laid_out_as_if_it_were_written_so() {
     let written = "[2000h]\nParameterName=x\nObjectType=VAR\nDataType=0x0006 ; UNSIGNED16\nAccessType=R/W\n\
         DefaultValue=1000; ms\nLowLimit=0x0x0A\nPDOMapping=yes\n";
     let meant = layout(written, "");
-    assert_eq!((&meant.entries, &meant.defaults, &meant.limits), (&right.entries, &right.defaults, &right.limits));
+    assert_eq!(
+        (&meant.entries, &meant.defaults, &meant.limits),
+        (&right.entries, &right.defaults, &right.limits)
+    );
     assert_eq!((messages(&meant.lost), messages(&right.assumptions)), (vec![], vec![]));
     assert_eq!(
         messages(&meant.assumptions),
-        ["a.eds:1:2: GEN 7 values are read as they were meant, as here `2000h` as `2000` (`edskit show --meant` with the \
-          file lists them, `edskit lint --fix` mends them)"]
+        [
+            "a.eds:1:2: GEN 7 values are read as they were meant, as here `2000h` as `2000` (`edskit show --meant` with the \
+          file lists them, `edskit lint --fix` mends them)"
+        ]
     );
     for (written, data_type, bytes) in [
         ("$NODEID + 180h", 7, vec![0x80, 1, 0, 0]),
@@ -449,7 +455,9 @@ fn what_is_meant_is_laid_out_as_if_it_were_written_so() {
         ("365 43200000", 12, vec![0x00, 0x2E, 0x93, 0x02, 0x6D, 0x01]),
         ("0x1234 5678", 7, vec![0x78, 0x56, 0x34, 0x12]),
     ] {
-        let text = format!("[2000]\nParameterName=x\nDataType={data_type}\nAccessType=const\nDefaultValue={written}\n");
+        let text = format!(
+            "[2000]\nParameterName=x\nDataType={data_type}\nAccessType=const\nDefaultValue={written}\n"
+        );
         let layout = layout(&text, "");
         assert_eq!(layout.default_of(&entry(&layout, 0x2000, 0)), bytes, "{written}");
     }
@@ -507,8 +515,10 @@ fn what_an_eds_leaves_out_has_the_default_of_cia_301() {
     }
     assert_eq!(
         messages(&with_defaults.assumptions),
-        ["a.eds:24:2: GEN 17 entries have no value in the file, and what CiA 301 gives: 1005h = 0x80, 1010h sub-index 00h = \
-          3h, 1012h = 0x100, 1014h = $NODEID+0x80, 1200h sub-index 00h = 2h, 1200h sub-index 01h = $NODEID+0x600, and 11 more"]
+        [
+            "a.eds:24:2: GEN 17 entries have no value in the file, and what CiA 301 gives: 1005h = 0x80, 1010h sub-index 00h = \
+          3h, 1012h = 0x100, 1014h = $NODEID+0x80, 1200h sub-index 00h = 2h, 1200h sub-index 01h = $NODEID+0x600, and 11 more"
+        ]
     );
     let configured = layout(&eds, "");
     assert_eq!(messages(&configured.assumptions), [""; 0]);
@@ -551,7 +561,9 @@ fn mandatory_objects_are_added_to_an_eds() {
 
 #[test]
 fn a_missing_sub_index_00h_is_added() {
-    let eds = with_mandatory(&[object("2000", "x", "ObjectType=8"), object("2000sub3", "e", "DataType=5 AccessType=rw")].concat());
+    let eds = with_mandatory(
+        &[object("2000", "x", "ObjectType=8"), object("2000sub3", "e", "DataType=5 AccessType=rw")].concat(),
+    );
     let layout = device(&eds);
     assert_eq!(value(&layout, 0x2000, 0), (3, false));
     assert_eq!(
@@ -571,7 +583,11 @@ fn the_error_history_begins_empty_and_can_be_cleared_in_every_form() {
     let register = object("1001", "e", "DataType=5 AccessType=ro DefaultValue=0x11");
     for (eds, notes) in [(long.concat(), 2), (compact, 0)] {
         for layout in [layout(&format!("{register}{eds}"), ""), device(&format!("{register}{eds}"))] {
-            assert_eq!((value(&layout, 0x1003, 0), value(&layout, 0x1003, 1)), ((0, false), (0, false)), "{eds}");
+            assert_eq!(
+                (value(&layout, 0x1003, 0), value(&layout, 0x1003, 1)),
+                ((0, false), (0, false)),
+                "{eds}"
+            );
             assert_eq!(value(&layout, 0x1001, 0), (0, false));
             assert!(entry(&layout, 0x1003, 0).flags.has(Flags::READ.and(Flags::WRITE).and(Flags::VARIABLE)));
             assert!(!entry(&layout, 0x1003, 1).flags.has(Flags::WRITE));
@@ -603,7 +619,8 @@ fn cob_ids_that_cannot_be_used_are_told() {
         format!("{}{}", object(index, "x", "ObjectType=9"), object(&format!("{index}sub1"), "c", &keys))
     };
     let told = |eds: &str, node_id: Option<u8>| {
-        let problems = layout(eds, "").cob_id_problems(node_id.map(|id| edskit_types::NodeId::new(id).unwrap()));
+        let problems =
+            layout(eds, "").cob_id_problems(node_id.map(|id| edskit_types::NodeId::new(id).unwrap()));
         messages(&problems).join("|")
     };
     let help = " (set bit 31, as in `0x80000000`, if it is not meant to be)";
@@ -616,7 +633,11 @@ fn cob_ids_that_cannot_be_used_are_told() {
         ("1806", "0x180", "TPDO7 is not in use: the CAN-ID 180h is restricted: 101h to 180h (reserved)"),
         ("1800", "0x20000185", "TPDO1 is not in use: CAN-IDs of 29 bits are not supported"),
         ("1400", "0x1185", "RPDO1 is not in use: bits 28 to 11 are not 0"),
-        ("1201", "0x701", "SDO server 2 request is not in use: the CAN-ID 701h is restricted: 701h to 77Fh (NMT error control)"),
+        (
+            "1201",
+            "0x701",
+            "SDO server 2 request is not in use: the CAN-ID 701h is restricted: 701h to 77Fh (NMT error control)",
+        ),
         (
             "1804",
             "$NODEID+0x680",
@@ -629,17 +650,25 @@ fn cob_ids_that_cannot_be_used_are_told() {
     for (index, value, reason) in [
         ("1005", "0", "SYNC is not in use: the CAN-ID 000h is restricted: 000h (NMT)"),
         ("1005", "0x80000000", "SYNC is not in use: the CAN-ID 000h is restricted: 000h (NMT)"),
-        ("1012", "0x80000701", "TIME is not in use: the CAN-ID 701h is restricted: 701h to 77Fh (NMT error control)"),
+        (
+            "1012",
+            "0x80000701",
+            "TIME is not in use: the CAN-ID 701h is restricted: 701h to 77Fh (NMT error control)",
+        ),
         ("1014", "0", "EMCY is not in use: the CAN-ID 000h is restricted: 000h (NMT)"),
     ] {
         let keys = format!("DataType=7 AccessType=rw DefaultValue={value}");
         let found = told(&object(index, "x", &keys), None);
         assert!(found.starts_with(&format!("a.eds:5:14: GEN {reason}")), "{found}");
     }
-    for (index, value) in [("1800", "0x80000000"), ("1800", "0xC0000000"), ("1400", "0x181"), ("1201", "0x605")] {
+    for (index, value) in
+        [("1800", "0x80000000"), ("1800", "0xC0000000"), ("1400", "0x181"), ("1201", "0x605")]
+    {
         assert_eq!(told(&pdo(index, value), None), "", "{index} {value}");
     }
-    for (index, value) in [("1012", "0"), ("1005", "0x40000080"), ("1014", "$NODEID+0x80"), ("1014", "0x80000000")] {
+    for (index, value) in
+        [("1012", "0"), ("1005", "0x40000080"), ("1014", "$NODEID+0x80"), ("1014", "0x80000000")]
+    {
         let keys = format!("DataType=7 AccessType=rw DefaultValue={value}");
         assert_eq!(told(&object(index, "x", &keys), None), "", "{index} {value}");
     }

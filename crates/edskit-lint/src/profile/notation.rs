@@ -3,11 +3,11 @@
 //! A visitor's complaint gets the place of what it was shown, so everything is checked inside visitors.
 
 use super::Expected;
-use edskit_model::nearest;
 use core::fmt;
 use core::marker::PhantomData;
 use core::ops::RangeInclusive;
 use edskit_model::Formula;
+use edskit_model::nearest;
 use edskit_types::{AccessType, DataType, Index, NodeId, ObjectCode};
 use serde::de::value::{I64Deserializer, StrDeserializer};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};

@@ -1,11 +1,11 @@
 //! What is read otherwise than it is written, so that people can be told.
 
 use super::{Datasheet, Entry, Section};
+use crate::Span;
 use crate::key::{KeyName, Shape};
 use crate::meant::{Slip, Wanted};
 use crate::section::SectionKind;
 use crate::value::ValueError;
-use crate::Span;
 
 /// A value or a header that is written wrongly, and is read as it was certainly meant.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -133,12 +133,15 @@ impl<'a> DictionaryEntry<'a> {
     /// The limits in force, readable or not: those of the description or, where it has none, those of its range type.
     pub fn limits(self) -> [Option<Field<'a, Value<'a>>>; 2] {
         let (description, own) = match self.origin {
-            Origin::Described(description) => (description, [description.low_limit(), description.high_limit()]),
+            Origin::Described(description) => {
+                (description, [description.low_limit(), description.high_limit()])
+            }
             // A compact entry has no limits of its own.
             Origin::Element(object) => (object.description(), [None, None]),
             Origin::Count(_) => return [None, None],
         };
-        let of_type = description.resolved_type().map_or([None, None], |resolved| [resolved.low, resolved.high]);
+        let of_type =
+            description.resolved_type().map_or([None, None], |resolved| [resolved.low, resolved.high]);
         let [own_low, own_high] = own;
         let [low, high] = of_type;
         [own_low.or(low), own_high.or(high)]
@@ -172,7 +175,8 @@ impl<'a> Object<'a> {
         let compact = self.compact_count();
         // Where the object code cannot be read, the sections say what the object is.
         let is_described = || self.sub_objects().len() > 0;
-        let has_subs = compact > 0 || self.object_code().map_or_else(is_described, |code| code.has_sub_objects());
+        let has_subs =
+            compact > 0 || self.object_code().map_or_else(is_described, |code| code.has_sub_objects());
         let origin = if let Some(sub) = self.sub_object(sub_index) {
             Origin::Described(sub.description())
         } else if !has_subs {

@@ -30,8 +30,9 @@ pub(super) fn read(sheet: &mut Datasheet) -> bool {
     let mut found: Vec<(u32, SectionKind)> = Vec::new();
     let mut beyond = None;
     for object in sheet.objects() {
-        let has_gap = object.sub_objects().any(|sub| sub.sub_index().0 >= 0x10 && sub.sub_index().0 != STRUCTURE)
-            && object.sub_objects().all(|sub| !(0xA..=0xF).contains(&sub.sub_index().0));
+        let has_gap =
+            object.sub_objects().any(|sub| sub.sub_index().0 >= 0x10 && sub.sub_index().0 != STRUCTURE)
+                && object.sub_objects().all(|sub| !(0xA..=0xF).contains(&sub.sub_index().0));
         if has_gap {
             // Names of three digits are no sub-objects as long as they are read in hexadecimal.
             let beyond = beyond.get_or_insert_with(|| beyond_ff(sheet));
@@ -100,7 +101,8 @@ fn beyond_ff(sheet: &Datasheet) -> Vec<(Index, u8, u32)> {
         let (object, digits) = name.split_once("sub")?;
         let SectionKind::Object(index) = SectionKind::of(object.as_bytes()) else { return None };
         let is_decimal = digits.len() == 3 && digits.bytes().all(|byte| byte.is_ascii_digit());
-        let sub_index = digits.parse().ok().filter(|sub_index| is_decimal && (100..STRUCTURE).contains(sub_index))?;
+        let sub_index =
+            digits.parse().ok().filter(|sub_index| is_decimal && (100..STRUCTURE).contains(sub_index))?;
         Some((index, sub_index, section.id()))
     });
     named.collect()

@@ -273,7 +273,9 @@ impl<'a> Meant<'a> for Value<'a> {
         let text = entry.meant(Wanted::Value(data_type))?;
         let value = match data_type {
             Some(data_type) => Value::parse(data_type, text.as_bytes()).ok()?,
-            None => Value::parse_untyped(text.as_bytes()).or_else(|_| Value::parse(DataType::Unsigned64, text.as_bytes())).ok()?,
+            None => Value::parse_untyped(text.as_bytes())
+                .or_else(|_| Value::parse(DataType::Unsigned64, text.as_bytes()))
+                .ok()?,
         };
         Some(match value {
             Value::Boolean(value) => Value::Boolean(value),

@@ -48,7 +48,8 @@ impl Datasheet {
                 });
                 return Some(ResolvedType { data_type, low, high });
             }
-            let definition = self.section(SectionKind::Object(next)).and_then(|section| section.description());
+            let definition =
+                self.section(SectionKind::Object(next)).and_then(|section| section.description());
             let code = definition.map(|definition| definition.object_code());
             next = match (code, self.sub_object(next, SubIndex(1))) {
                 (Some(Some(ObjectCode::DefType)), None) => definition?.data_type()?.known().map(Index)?,
@@ -56,7 +57,8 @@ impl Datasheet {
                     for (limit, sub_index) in limits.iter_mut().zip([SubIndex(2), SubIndex(3)]) {
                         *limit = limit.or_else(|| self.sub_object(next, sub_index));
                     }
-                    let named = basic.filled(KeyName::ParameterValue).or_else(|| basic.filled(KeyName::DefaultValue));
+                    let named =
+                        basic.filled(KeyName::ParameterValue).or_else(|| basic.filled(KeyName::DefaultValue));
                     Index(named?.unsigned().known()?)
                 }
                 _ => return None,
@@ -82,9 +84,15 @@ mod tests {
         let range = "[A0]\nObjectType=6\n[A0sub1]\nDefaultValue=0x4\n[A0sub2]\nDefaultValue=-5\n[A0sub3]\nDefaultValue=0x10\n";
         let limits = (DataType::Integer32, Some("-5".to_owned()), Some("0x10".to_owned()));
         assert_eq!(resolved(range, 0xA0), Some(limits.clone()));
-        assert_eq!(resolved(&format!("{range}[A1]\nObjectType=6\n[A1sub1]\nDefaultValue=0xA0\n"), 0xA1), Some(limits));
+        assert_eq!(
+            resolved(&format!("{range}[A1]\nObjectType=6\n[A1sub1]\nDefaultValue=0xA0\n"), 0xA1),
+            Some(limits)
+        );
         assert_eq!(resolved("[B0]\n[B0sub1]\nDefaultValue=8\n", 0xB0), Some((DataType::Real32, None, None)));
-        assert_eq!(resolved("[41]\nObjectType=5\nDataType=7\n", 0x41), Some((DataType::Unsigned32, None, None)));
+        assert_eq!(
+            resolved("[41]\nObjectType=5\nDataType=7\n", 0x41),
+            Some((DataType::Unsigned32, None, None))
+        );
     }
 
     #[test]

@@ -10,7 +10,8 @@ pub fn value_length(raw: &[u8]) -> Option<usize> {
 
 /// A value of octets without the comment and the mark behind it.
 pub(crate) fn before_comment(raw: &[u8]) -> &[u8] {
-    let end = raw.iter().position(|byte| matches!(byte, b';' | b'#' | b'/' | b',' | b'(')).unwrap_or(raw.len());
+    let end =
+        raw.iter().position(|byte| matches!(byte, b';' | b'#' | b'/' | b',' | b'(')).unwrap_or(raw.len());
     raw[..end].trim_ascii_end()
 }
 

@@ -25,8 +25,8 @@ mod words;
 pub(crate) use behind::before_comment;
 pub use behind::value_length;
 pub use formula::{formula, is_hexadecimal};
-pub use number::{number, without_prefix};
 use number::index;
+pub use number::{number, without_prefix};
 pub use words::{access, flag};
 
 use crate::value::{Formula, Number, Value};
@@ -89,7 +89,9 @@ fn unwrapped(text: &str, wanted: Wanted, layers: usize) -> Option<Slip> {
         return own;
     }
     for (reason, take) in behind::LAYERS.iter().filter(|_| layers > 0) {
-        let Some(rest) = take(text).filter(|rest| rest.len() < text.len() && !rest.is_empty()) else { continue };
+        let Some(rest) = take(text).filter(|rest| rest.len() < text.len() && !rest.is_empty()) else {
+            continue;
+        };
         if wanted.is_met_by(rest) {
             return Some(Slip { text: rest.to_owned(), reason, certain: true, other: None });
         }
@@ -117,23 +119,25 @@ impl Wanted {
 
     /// What a text without anything around it was meant to be.
     fn respelt(self, text: &str) -> Option<Slip> {
-        let word = |word: Option<String>, reason| word.map(|text| Slip { text, reason, certain: true, other: None });
+        let word =
+            |word: Option<String>, reason| word.map(|text| Slip { text, reason, certain: true, other: None });
         match self {
             Self::Number => number(text),
             Self::Index => index(text),
-            Self::DataType => word(words::data_type(text), "a data type is given by its index").or_else(|| index(text)),
+            Self::DataType => {
+                word(words::data_type(text), "a data type is given by its index").or_else(|| index(text))
+            }
             Self::ObjectCode => {
                 word(words::object_code(text), "an object code is a number").or_else(|| number(text))
             }
-            Self::Flag => {
-                word(flag(text).map(str::to_owned), "a flag is 0 or 1").or_else(|| number(text))
-            }
+            Self::Flag => word(flag(text).map(str::to_owned), "a flag is 0 or 1").or_else(|| number(text)),
             Self::Access => {
                 word(access(text).map(|access| access.as_str().to_owned()), "the access types are six words")
             }
             Self::Value(data_type) => match data_type.map(DataType::kind) {
                 Some(DataTypeKind::Boolean) => {
-                    word(words::boolean(text).map(str::to_owned), "a BOOLEAN is 0 or 1").or_else(|| number(text))
+                    word(words::boolean(text).map(str::to_owned), "a BOOLEAN is 0 or 1")
+                        .or_else(|| number(text))
                 }
                 Some(DataTypeKind::Real) => word(number::real(text), "a real number has a decimal point"),
                 Some(DataTypeKind::OctetString | DataTypeKind::Domain) => {

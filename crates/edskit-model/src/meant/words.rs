@@ -73,7 +73,8 @@ pub(super) fn data_type(word: &str) -> Option<String> {
     let dense: String = word.chars().filter(|c| !matches!(c, '_' | ' ' | '-')).collect();
     let dense = dense.to_ascii_lowercase();
     let letters = |name: &str| name.replace('_', "").to_ascii_lowercase();
-    let named = |wanted: &str| DataType::ALL.iter().copied().find(|known| letters(known.name()) == letters(wanted));
+    let named =
+        |wanted: &str| DataType::ALL.iter().copied().find(|known| letters(known.name()) == letters(wanted));
     let sized = || {
         let bits = dense.trim_start_matches(|c: char| c.is_ascii_alphabetic());
         let bits = bits.strip_suffix('t').unwrap_or(bits);

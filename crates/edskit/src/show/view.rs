@@ -268,7 +268,8 @@ impl<'a> Viewer<'a> {
     ) -> ObjectView {
         let index = object.index().0;
         let compact = object.compact_count();
-        let entries: Vec<EntryView> = object.dictionary_entries().filter(wanted).map(|entry| self.entry(entry)).collect();
+        let entries: Vec<EntryView> =
+            object.dictionary_entries().filter(wanted).map(|entry| self.entry(entry)).collect();
         ObjectView {
             index,
             name: name_of(object.description()),

@@ -32,7 +32,8 @@ pub(super) fn complete(sheet: &Datasheet, side_file: &SideFile, gathered: &mut G
 /// The error register and the history of errors begin with nothing: they tell what has happened since power-on. The number
 /// of errors can be set to 0 in every form of storage (CiA 301 v4.2, 7.5.2.2 and 7.5.2.4).
 fn run_time(sheet: &Datasheet, gathered: &mut Gathered) {
-    let is_of_errors = |item: &&mut Item| [Index::ERROR_REGISTER, Index::PREDEFINED_ERROR_FIELD].contains(&item.index);
+    let is_of_errors =
+        |item: &&mut Item| [Index::ERROR_REGISTER, Index::PREDEFINED_ERROR_FIELD].contains(&item.index);
     for item in gathered.items.iter_mut().filter(is_of_errors) {
         if item.index == Index::PREDEFINED_ERROR_FIELD && item.is_count {
             item.access = AccessType::Rw;
@@ -42,8 +43,14 @@ fn run_time(sheet: &Datasheet, gathered: &mut Gathered) {
         let is_said = |bytes: &Bytes| bytes.is_node_relative || bytes.bytes.iter().any(|byte| *byte != 0);
         if item.default.as_ref().is_some_and(is_said) {
             let text = sheet.text(item.value_span);
-            let message = format!("`{text}` is left out: {} tells what has happened since power-on", item.index);
-            gathered.notes.push(Problem::in_eds(sheet.document(), Severity::Warning, item.value_span, message));
+            let message =
+                format!("`{text}` is left out: {} tells what has happened since power-on", item.index);
+            gathered.notes.push(Problem::in_eds(
+                sheet.document(),
+                Severity::Warning,
+                item.value_span,
+                message,
+            ));
         }
         if item.default.is_some() {
             item.default = fixed_size(item.data_type).map(|size| Bytes::fixed(vec![0; size.into()]));
@@ -105,7 +112,7 @@ fn add_mandatory(place: &Place<'_>, gathered: &mut Gathered) {
         (Index::ERROR_REGISTER, "0", vec![(0, byte, 0, "Error register")]),
         (
             Index::IDENTITY,
-            "the numbers of [DeviceInfo]",
+            if info.is_some() { "the numbers of [DeviceInfo]" } else { "0" },
             vec![
                 (0, byte, u32::from(*IDENTITY.end()), "Highest sub-index supported"),
                 (1, number, identity(1), "Vendor-ID"),
@@ -125,7 +132,8 @@ fn add_mandatory(place: &Place<'_>, gathered: &mut Gathered) {
             item.source.object = is_part.then(|| "Identity object".to_owned());
             gathered.items.push(item);
         }
-        let message = format!("the mandatory object {index} is missing in the file, and is added with {value}");
+        let message =
+            format!("the mandatory object {index} is missing in the file, and is added with {value}");
         gathered.assumptions.push(place.problem(span, message));
     }
     gathered.items.sort_by_key(Item::key);
@@ -152,8 +160,13 @@ fn add_counts(place: &Place<'_>, gathered: &mut Gathered) {
         }
         let header = place.sheet.section(SectionKind::Object(first.index));
         let span = header.map_or(first.source.span, |section| section.name_span());
-        let mut item =
-            place.item((first.index, 0), DataType::Unsigned8, highest(object).into(), "Highest sub-index supported", span);
+        let mut item = place.item(
+            (first.index, 0),
+            DataType::Unsigned8,
+            highest(object).into(),
+            "Highest sub-index supported",
+            span,
+        );
         item.is_count = true;
         item.source.object.clone_from(&first.source.object);
         if first.index == Index::PREDEFINED_ERROR_FIELD {
@@ -186,7 +199,8 @@ fn highest(object: &[Item]) -> u8 {
     let is_mapped = |item: &&Item| {
         item.default.as_ref().is_some_and(|default| default.bytes.iter().any(|byte| *byte != 0))
     };
-    let mapped = (1..).zip(elements).take_while(|(number, item)| item.sub_index.0 == *number && is_mapped(item));
+    let mapped =
+        (1..).zip(elements).take_while(|(number, item)| item.sub_index.0 == *number && is_mapped(item));
     mapped.map(|(number, _)| number).last().unwrap_or(0)
 }
 
@@ -200,7 +214,9 @@ fn give_values(sheet: &Datasheet, gathered: &mut Gathered) {
         .collect();
     let mut given: Vec<(Span, String)> = Vec::new();
     for item in gathered.items.iter_mut().filter(|item| item.default.is_none()) {
-        let Some(size) = fixed_size(item.data_type).map(usize::from).filter(|size| *size <= 4) else { continue };
+        let Some(size) = fixed_size(item.data_type).map(usize::from).filter(|size| *size <= 4) else {
+            continue;
+        };
         let known = |number: u32| Some((number, false, format!("{number:X}h")));
         let value = if item.is_count {
             let count = counts.iter().find(|(index, _)| *index == item.index);
@@ -226,7 +242,8 @@ fn give_values(sheet: &Datasheet, gathered: &mut Gathered) {
         0 => String::new(),
         more => format!(", and {more} more"),
     };
-    let what = if given.len() == 1 { "1 entry has".to_owned() } else { format!("{} entries have", given.len()) };
+    let what =
+        if given.len() == 1 { "1 entry has".to_owned() } else { format!("{} entries have", given.len()) };
     let message = format!("{what} no value in the file, and what CiA 301 gives: {}{more}", names.join(", "));
     gathered.assumptions.push(Problem::in_eds(sheet.document(), Severity::Warning, *span, message));
 }

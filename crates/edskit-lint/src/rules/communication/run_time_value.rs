@@ -76,8 +76,13 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         let Some(number) = value.constant::<i128>().filter(|number| *number != 0) else { continue };
         let entry = value.entry;
         let what = match variable.sub_index {
-            Some(SubIndex(0)) => format!("1003h sub-index 00h is {number}, but it counts the errors since power-on"),
-            _ => format!("{} holds the error {number:X}h, but no error has happened at power-on", variable.place()),
+            Some(SubIndex(0)) => {
+                format!("1003h sub-index 00h is {number}, but it counts the errors since power-on")
+            }
+            _ => format!(
+                "{} holds the error {number:X}h, but no error has happened at power-on",
+                variable.place()
+            ),
         };
         let finding = report.add(value.span(), what);
         if entry.key().name == KeyName::Item {
@@ -107,7 +112,10 @@ mod tests {
         );
         let zero = "[1003sub0]\nDataType=5\nDefaultValue=0\nParameterValue=0x0\n";
         assert_eq!(findings_in(&RUN_TIME_VALUE, "a.dcf", zero.as_bytes()), [""; 0]);
-        assert_eq!(fixed(&RUN_TIME_VALUE, "[1003sub0]\nDataType=5\nDefaultValue=8\n"), "[1003sub0]\nDataType=5\nDefaultValue=0\n");
+        assert_eq!(
+            fixed(&RUN_TIME_VALUE, "[1003sub0]\nDataType=5\nDefaultValue=8\n"),
+            "[1003sub0]\nDataType=5\nDefaultValue=0\n"
+        );
     }
 
     #[test]

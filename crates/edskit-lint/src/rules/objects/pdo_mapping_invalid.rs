@@ -51,9 +51,10 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         let key = field.entry.key().name.spelling();
         let finding = report.add(field.span(), format!("{key} is `{}` instead of 0 or 1", field.text()));
         match field.known() {
-            Some(flag) => finding
-                .help(format!("write `{key}={}`", u8::from(flag)))
-                .unsafe_fix(format!("Write {}", u8::from(flag)), vec![Edit::replace(field.span(), u8::from(flag).to_string())]),
+            Some(flag) => finding.help(format!("write `{key}={}`", u8::from(flag))).unsafe_fix(
+                format!("Write {}", u8::from(flag)),
+                vec![Edit::replace(field.span(), u8::from(flag).to_string())],
+            ),
             None => finding.help(format!("write `{key}=1` if the object may be mapped, else `{key}=0`")),
         };
     }

@@ -1,7 +1,7 @@
 //! What several rules ask about the structure of an object.
 
-use edskit_model::meant::value_length;
 use crate::{Context, Variable};
+use edskit_model::meant::value_length;
 use edskit_model::{Entry, Object, Section, SectionKind, SubObject};
 use edskit_types::{Index, ObjectCode, SubIndex};
 

@@ -1,7 +1,7 @@
 use super::{lost_header, typed};
-use edskit_model::meant::{self, Slip, Wanted, value_length};
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
+use edskit_model::meant::{self, Slip, Wanted, value_length};
 use edskit_model::{Entry, KeyName, Number, NumberError, NumberErrorKind, Section, SectionKind, Shape};
 use edskit_types::DataType;
 

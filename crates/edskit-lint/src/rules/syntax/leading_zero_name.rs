@@ -59,7 +59,10 @@ fn check(context: &Context<'_>, report: &mut Report) {
         let written = section.name();
         let is_misspelt = section.kind().is_misspelt(section.name_span().slice(context.source()));
         let message = if is_misspelt {
-            format!("the name `{written}` is more than the number{}", if matches!(section.kind(), SectionKind::SubObject(..)) { "s" } else { "" })
+            format!(
+                "the name `{written}` is more than the number{}",
+                if matches!(section.kind(), SectionKind::SubObject(..)) { "s" } else { "" }
+            )
         } else if written.to_ascii_lowercase().contains("0x") {
             format!("the name `{written}` has `0x`")
         } else {
@@ -85,12 +88,11 @@ fn decimal(object: Object<'_>, report: &mut Report) {
         1 => ", and so does one more".to_owned(),
         count => format!(", and so do {count} more"),
     };
-    let message = format!("the name `{}` counts in decimal, but sub-indices are hexadecimal{more}", first.name());
+    let message =
+        format!("the name `{}` counts in decimal, but sub-indices are hexadecimal{more}", first.name());
     let edits = named.iter().map(|(section, name)| Edit::replace(section.name_span(), name.as_str()));
     let finding = report.add(first.name_span(), message);
-    finding
-        .help(format!("write `[{right}]`"))
-        .unsafe_fix("Count in hexadecimal", edits.collect());
+    finding.help(format!("write `[{right}]`")).unsafe_fix("Count in hexadecimal", edits.collect());
     for (section, name) in others {
         finding.label(section.name_span(), format!("`[{name}]`"));
     }
@@ -169,7 +171,9 @@ mod tests {
         let text = format!("[6401]\n[6401sub0]\nDataType=5\nDefaultValue=12\n{}", names.concat());
         assert_eq!(
             findings(&LEADING_ZERO_NAME, &text),
-            ["23:2 warning: the name `6401sub10` counts in decimal, but sub-indices are hexadecimal, and so do 2 more"]
+            [
+                "23:2 warning: the name `6401sub10` counts in decimal, but sub-indices are hexadecimal, and so do 2 more"
+            ]
         );
         let right = text.replace("sub10]", "subA]").replace("sub11]", "subB]").replace("sub12]", "subC]");
         assert_eq!(fixed(&LEADING_ZERO_NAME, &text), right);

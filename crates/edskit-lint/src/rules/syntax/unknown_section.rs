@@ -1,6 +1,6 @@
 use crate::rule::rule;
-use edskit_model::nearest;
 use crate::{Context, Edit, Report, Severity};
+use edskit_model::nearest;
 use edskit_model::{Section, SectionKind};
 use std::collections::HashMap;
 

@@ -1,9 +1,9 @@
 //! What a literal can mean to the readers in use, and which values a variable has.
 
 use crate::evaluate::commissioned;
-use edskit_model::meant::value_length;
 use crate::{Context, Variable};
 use core::fmt;
+use edskit_model::meant::value_length;
 use edskit_model::{Entry, Field, KeyName, Radix, Section, SectionKind, Value};
 use edskit_types::{DataType, Index, NodeId};
 

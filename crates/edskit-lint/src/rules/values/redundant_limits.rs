@@ -51,7 +51,9 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(data_type) = variable.standard_type else { return };
     let Some((low, high)) = data_type.range() else { return };
     let says = |limit: Option<Field<'_, Value<'_>>>, border: i128| {
-        limit.is_none_or(|limit| limit.known().is_some_and(|value| value.integer(data_type, None) == Ok(border)))
+        limit.is_none_or(|limit| {
+            limit.known().is_some_and(|value| value.integer(data_type, None) == Ok(border))
+        })
     };
     if !says(variable.low_limit, low) || !says(variable.high_limit, high) {
         return;

@@ -67,7 +67,9 @@ fn report_value(field: Field<'_, Value<'_>>, data_type: DataType, report: &mut R
     let message = format!("{} is `{}`, which is no {data_type}", name(field.entry), field.text());
     let finding = report.add(field.span(), message);
     if data_type.kind() != DataTypeKind::Real {
-        finding.help("write the days and the milliseconds, such as `365 43200000`, or the 48 bits as one number");
+        finding.help(
+            "write the days and the milliseconds, such as `365 43200000`, or the 48 bits as one number",
+        );
     } else if matches!(raw, [b'0', b'x' | b'X', ..]) {
         let digits = data_type.bits().unwrap_or(64) / 4;
         finding.help(format!(
