@@ -675,3 +675,18 @@ fn cob_ids_that_cannot_be_used_are_told() {
     let implicit = device("[DeviceInfo]\nCompactPDO=0x13\nNrOfRXPDO=5\nNrOfTXPDO=5\n");
     assert_eq!((implicit.cob_ids.len(), implicit.cob_id_problems(None).len()), (10, 0));
 }
+
+#[test]
+fn a_mapping_of_a_pdo_that_does_not_exist_stops_nothing() {
+    let mapping = "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\nDefaultValue=0x20000010\n";
+    let severity = |cob_id: &str| {
+        let communication =
+            format!("[1800]\nObjectType=9\n[1800sub1]\nDataType=7\nAccessType=rw\nDefaultValue={cob_id}\n");
+        let problems = layout(&format!("{communication}{mapping}"), "").mapping_problems();
+        problems.iter().map(|problem| problem.severity).collect::<Vec<_>>()
+    };
+    assert_eq!(severity("$NODEID+0x80000180"), [Severity::Warning]);
+    assert_eq!(severity("$NODEID+0x180"), [Severity::Error]);
+    let alone = layout(mapping, "").mapping_problems();
+    assert_eq!(alone[0].severity, Severity::Error, "nothing says that it does not exist");
+}
