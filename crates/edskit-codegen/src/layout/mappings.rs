@@ -23,7 +23,8 @@ pub struct Mapping {
     pub direction: PdoDirection,
     /// From 1.
     pub number: u16,
-    /// Whether the PDO exists at power-on; one that does not carries nothing as long as nobody switches it on.
+    /// Whether the PDO exists at power-on: bit 31 of its COB-ID does not say otherwise. One that does not exist carries nothing
+    /// as long as nobody switches it on.
     pub is_valid: bool,
     /// Where the number of entries stands.
     pub place: Place,
@@ -188,7 +189,7 @@ pub(super) fn read(items: &[Item], document: &Document) -> Vec<Mapping> {
         let cob_id = Index(object[0].index.0 - DISTANCE);
         let cob_id =
             items.binary_search_by_key(&(cob_id, SubIndex(1)), Item::key).ok().map(|found| &items[found]);
-        let is_valid = cob_id.is_some_and(|cob_id| CobId(value(cob_id)).is_valid());
+        let is_valid = cob_id.is_none_or(|cob_id| CobId(value(cob_id)).is_valid());
         mappings.push(Mapping {
             direction,
             number,

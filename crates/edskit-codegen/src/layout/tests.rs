@@ -709,3 +709,18 @@ fn a_granularity_that_the_file_contradicts_counts_as_1() {
     let expected = "a.eds:2:13: GEN Granularity 64 counts as 1, because 2000h sub-index 00h with its 16 bits can be mapped";
     assert!(said.iter().any(|line| line == expected), "{said:#?}");
 }
+
+#[test]
+fn a_mapping_of_a_pdo_that_does_not_exist_stops_nothing() {
+    let mapping = "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\nDefaultValue=0x20000010\n";
+    let severity = |cob_id: &str| {
+        let communication =
+            format!("[1800]\nObjectType=9\n[1800sub1]\nDataType=7\nAccessType=rw\nDefaultValue={cob_id}\n");
+        let problems = layout(&format!("{communication}{mapping}"), "").mapping_problems();
+        problems.iter().map(|problem| problem.severity).collect::<Vec<_>>()
+    };
+    assert_eq!(severity("$NODEID+0x80000180"), [Severity::Warning]);
+    assert_eq!(severity("$NODEID+0x180"), [Severity::Error]);
+    let alone = layout(mapping, "").mapping_problems();
+    assert_eq!(alone[0].severity, Severity::Error, "nothing says that it does not exist");
+}

@@ -148,7 +148,7 @@ fn leading_zero(text: &str) -> Option<Guess> {
 fn no_prefix(text: &str) -> Option<Guess> {
     let usual_width = matches!(text.len(), 2 | 4 | 8);
     let number = format!("0x{text}");
-    is_hex(text).then(|| if usual_width { Certain(number) } else { Likely(number) })
+    is_hex(text).then_some(if usual_width { Certain(number) } else { Likely(number) })
 }
 
 /// `100 ms`
@@ -174,8 +174,10 @@ pub(super) fn octets(text: &str) -> Option<String> {
     let parts = text.split_ascii_whitespace();
     let digits = |part: &str| {
         let digits = part.strip_prefix("0x").or_else(|| part.strip_prefix("0X")).unwrap_or(part);
-        (!digits.is_empty() && digits.len() % 2 == 0 && digits.bytes().all(|byte| byte.is_ascii_hexdigit()))
-            .then(|| digits.to_owned())
+        (!digits.is_empty()
+            && digits.len().is_multiple_of(2)
+            && digits.bytes().all(|byte| byte.is_ascii_hexdigit()))
+        .then(|| digits.to_owned())
     };
     parts.map(digits).collect::<Option<String>>().filter(|text| !text.is_empty())
 }

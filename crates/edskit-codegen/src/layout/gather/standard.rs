@@ -112,7 +112,7 @@ fn add_mandatory(place: &Place<'_>, gathered: &mut Gathered) {
         (Index::ERROR_REGISTER, "0", vec![(0, byte, 0, "Error register")]),
         (
             Index::IDENTITY,
-            "the numbers of [DeviceInfo]",
+            if info.is_some() { "the numbers of [DeviceInfo]" } else { "0" },
             vec![
                 (0, byte, u32::from(*IDENTITY.end()), "Highest sub-index supported"),
                 (1, number, identity(1), "Vendor-ID"),
