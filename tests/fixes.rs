@@ -9,8 +9,10 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 /// Rules whose safe fixes leave a file that says the same in other words, and how `is_same` tells: the list has an empty
 /// section more or an item less, `SubNumber` is what is described, what is left out and what its absence means are the
 /// same, `#` becomes `;`, what stood behind a value becomes a comment, a time gets its other digit.
-const REWORDING: [&str; 10] =
-    ["LST001", "LST003", "LST006", "OBJ007", "OBJ019", "OBJ029", "PDO027", "SYN011", "SYN012", "VAL012"];
+const REWORDING: [&str; 11] = [
+    "LST001", "LST003", "LST006", "OBJ007", "OBJ019", "OBJ029", "PDO027", "SYN011", "SYN012", "SYN028",
+    "VAL012",
+];
 /// The time of [FileInfo] in its own form.
 const TIME: &str = "FIL005";
 
@@ -185,7 +187,7 @@ fn is_same(section: Section<'_>, left: Option<Entry<'_>>, right: Option<Entry<'_
             _ => left.key_text().starts_with('#'),
         },
         (None, Some(right)) => match right.key().name {
-            KeyName::SubNumber => true,
+            KeyName::SubNumber | KeyName::Lines => true,
             KeyName::Dummy => right.raw() == b"0",
             KeyName::DataType => right.raw() == b"0x000F",
             KeyName::AccessType => right.raw() == b"rw",

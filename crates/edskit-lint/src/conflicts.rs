@@ -115,15 +115,14 @@ impl Conflicts {
 
     /// Whether a place is the first marker of a conflict, where the conflict itself is reported.
     fn begins_one(&self, document: &Document, span: Span) -> bool {
-        self.whole.iter().any(|conflict| conflict.span(document).start == span.start)
+        self.whole.binary_search_by_key(&span.start, |conflict| conflict.span(document).start).is_ok()
     }
 
     /// Whether a place is in a conflict, or directly at its edge.
     fn touches(&self, document: &Document, span: Span) -> bool {
-        self.whole.iter().any(|conflict| {
-            let whole = conflict.span(document);
-            span.start < whole.end && whole.start < span.end.max(span.start + 1)
-        })
+        let end = span.end.max(span.start + 1);
+        let begun = self.whole.partition_point(|conflict| conflict.span(document).start < end);
+        self.whole[..begun].last().is_some_and(|conflict| span.start < conflict.span(document).end)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::rules::syntax::unused_suppression::UNUSED_SUPPRESSION;
 use crate::{Context, Edit, Finding, Report, Rule, RuleSet, find};
-use edskit_model::{Line, LineKind, Section, SectionKind, Span};
+use edskit_model::{Line, LineKind, Object, Section, SectionKind, Span};
+use std::rc::Rc;
 
 /// What such a comment begins with, behind its `;` and blanks.
 const MARK: &[u8] = b"edskit:";
@@ -15,9 +16,16 @@ struct Suppression {
     selector: Span,
     /// What it names; empty for an unknown rule.
     rules: Vec<&'static Rule>,
-    /// Where findings are silenced: in one place or several.
-    scope: Vec<Span>,
+    /// Where findings are silenced: in one place or several, sorted.
+    scope: Rc<[Span]>,
     used: bool,
+}
+
+impl Suppression {
+    fn covers(&self, place: u32) -> bool {
+        let begun = self.scope.partition_point(|scope| scope.start <= place);
+        self.scope[..begun].last().is_some_and(|scope| scope.contains(Span::at(place)))
+    }
 }
 
 /// Takes out the findings that comments of the file silence, and reports comments that silence nothing.
@@ -28,8 +36,7 @@ pub(crate) fn apply(context: &Context<'_>, rules: &RuleSet, findings: &mut Vec<F
     }
     findings.retain(|finding| {
         let silences = |suppression: &Suppression| {
-            suppression.rules.contains(&finding.rule)
-                && suppression.scope.iter().any(|scope| scope.contains(Span::at(finding.span().start)))
+            suppression.rules.contains(&finding.rule) && suppression.covers(finding.span().start)
         };
         let mut silenced = false;
         for suppression in suppressions.iter_mut().filter(|suppression| silences(suppression)) {
@@ -106,12 +113,12 @@ fn read(context: &Context<'_>) -> Comments {
             continue;
         };
         let scope = match keyword {
-            Keyword::File => vec![Span::new(0, source.len() as u32)],
+            Keyword::File => [Span::new(0, source.len() as u32)].into(),
             Keyword::Next => next_scope(context, number),
         };
         for selector in selectors {
             let rules = find(&String::from_utf8_lossy(selector.slice(source))).unwrap_or_default();
-            let scope = scope.clone();
+            let scope = Rc::clone(&scope);
             comments.suppressions.push(Suppression { line: number, selector, rules, scope, used: false });
         }
     }
@@ -174,26 +181,35 @@ fn parse(source: &[u8], order: Span) -> Option<(Keyword, Vec<Span>)> {
 
 /// From the comment to the end of what stands next: an entry, any other line, or a section with all that belongs to it.
 /// To an object belong its sub-objects and its lists, wherever they stand.
-fn next_scope(context: &Context<'_>, comment: usize) -> Vec<Span> {
+fn next_scope(context: &Context<'_>, comment: usize) -> Rc<[Span]> {
     let lines = context.document().lines();
     let is_next = |line: &&Line| !matches!(line.kind(), LineKind::Comment | LineKind::Blank);
     let start = lines[comment].span().start;
     let Some(offset) = lines[comment..].iter().position(|line| is_next(&line)) else {
-        return vec![Span::at(start)];
+        return [Span::at(start)].into();
     };
     let next = comment + offset;
     if lines[next].kind() != LineKind::Section {
-        return vec![Span::new(start, lines[next].full_span().end)];
+        return [Span::new(start, lines[next].full_span().end)].into();
     }
     let mut scope = vec![Span::new(start, section_end(lines, next))];
     let section = context.sheet.section_at(lines[next].span().start);
     if let Some(SectionKind::Object(index)) = section.map(Section::kind) {
-        let parts = context.sheet.sections().filter(|part| part.kind().index() == Some(index));
+        let subs = context.sheet.object(index).into_iter().flat_map(Object::sub_objects);
+        let lists = [
+            SectionKind::ObjectLinks(index),
+            SectionKind::CompactNames(index),
+            SectionKind::CompactValues(index),
+            SectionKind::CompactDenotations(index),
+        ];
+        let parts = subs.map(|sub| sub.section());
+        let parts = parts.chain(lists.into_iter().filter_map(|kind| context.sheet.section(kind)));
         scope.extend(
             parts.map(|part| Span::new(part.line().span().start, section_end(lines, part.line_number()))),
         );
+        scope.sort_unstable();
     }
-    scope
+    scope.into()
 }
 
 /// The end of the section with this header.

@@ -55,6 +55,9 @@ fn dummy_usage() -> Vec<Defect> {
     vec![
         missing("PDO027", "DummyUsage without the BOOLEAN", "Dummy0001", is_usage),
         missing("PDO027", "DummyUsage without the INTEGER32", "Dummy0004", is_usage),
+        value_of("PDO027", "DummyUsage in hexadecimal", "Dummy0003", is_usage, |_, old| {
+            Some(format!("0x{old}"))
+        }),
         value_of("PDO027", "DummyUsage with an empty entry", "Dummy0002", is_usage, |_, _| {
             Some(String::new())
         })

@@ -102,6 +102,13 @@ fn try_run(arguments: &LintArguments, streams: &mut Streams) -> Result<Exit, Sto
     })?;
     sink.write(streams, |out| format.end(&summary, out))?;
     sink.close(streams)?;
+    // The formats for machines have no summary, where people would read it.
+    let has_summary = !arguments.quiet
+        && (arguments.output.is_some()
+            || matches!(arguments.format, LintFormat::Human | LintFormat::Concise));
+    if let Some(left_out) = summary.left_out().filter(|_| !has_summary) {
+        streams.complain(format_args!("{left_out}"));
+    }
     if arguments.output.is_some() && !arguments.quiet {
         let out = if arguments.diff { &mut streams.stderr } else { &mut streams.stdout };
         writeln!(out, "{summary}")?;

@@ -121,6 +121,13 @@ impl Summary {
         self.fails |= findings.iter().any(|finding| file.fails(finding));
     }
 
+    /// What is said of fixes that were left out, if any were.
+    pub(crate) fn left_out(&self) -> Option<String> {
+        let (fixes, they) = if self.refused == 1 { ("fix", "it") } else { ("fixes", "they") };
+        let told = || format!("{} {fixes} left out: {they} would uncover other errors", self.refused);
+        (self.refused > 0).then(told)
+    }
+
     /// How the run ended.
     pub(crate) fn exit(&self) -> Exit {
         if !self.failures.is_empty() {
@@ -140,9 +147,8 @@ impl fmt::Display for Summary {
             let done = if self.only_looks { "would be fixed" } else { "fixed" };
             write!(f, ", {} {done}", self.fixed)?;
         }
-        if self.refused > 0 {
-            let (fixes, they) = if self.refused == 1 { ("fix", "it") } else { ("fixes", "they") };
-            write!(f, ", {} {fixes} left out: {they} would uncover other errors", self.refused)?;
+        if let Some(left_out) = self.left_out() {
+            write!(f, ", {left_out}")?;
         }
         if self.known > 0 {
             write!(f, ", {} known from the baseline", self.known)?;

@@ -96,12 +96,12 @@ fn cut_off<'a>(context: &Context<'a>, lacking: &[(&Item, Index)]) -> Option<Sect
     let index = last.kind().index()?;
     let items = context.listing().items();
     let place = items.iter().position(|item| item.index == Some(index))?;
-    let behind_in_lists = items[place + 1..].iter().filter(|item| item.index.is_some()).count();
-    let behind_by_index = items.iter().filter(|item| item.index.is_some_and(|other| other > index)).count();
-    let in_lists =
-        lacking.iter().filter(|(item, _)| items[place + 1..].iter().any(|behind| behind.index == item.index));
-    let is_tail = behind_in_lists == lacking.len() && in_lists.count() == lacking.len()
-        || behind_by_index == lacking.len() && lacking.iter().all(|(_, missing)| *missing > index);
+    let mut tail = items[place + 1..].iter().filter_map(|item| item.index);
+    let is_end_of_lists =
+        tail.clone().count() == lacking.len() && tail.all(|index| !context.listing().is_described(index));
+    let behind = items.iter().filter(|item| item.index.is_some_and(|other| other > index)).count();
+    let is_end_of_indices = behind == lacking.len() && lacking.iter().all(|(_, missing)| *missing > index);
+    let is_tail = is_end_of_lists || is_end_of_indices;
     (lacking.len() > 1 && is_tail).then_some(last)
 }
 

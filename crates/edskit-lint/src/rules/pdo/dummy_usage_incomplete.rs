@@ -2,17 +2,18 @@ use crate::edits::add_lines;
 use crate::rule::rule;
 use crate::wording::few;
 use crate::{Context, Edit, Report};
-use edskit_model::{KeyName, SectionKind};
+use edskit_model::{Entry, KeyName, Section, SectionKind};
 
 rule! {
     /// DummyUsage says nothing of some data types
     ///
     /// ## What it does
-    /// Reports a `[DummyUsage]` that lacks some of the entries `Dummy0001` to `Dummy0007`, or has them without a value.
+    /// Reports a `[DummyUsage]` that lacks some of the entries `Dummy0001` to `Dummy0007`, or has them without a value or
+    /// in hexadecimal.
     ///
     /// ## Why is this bad
-    /// By the standard the data type cannot be mapped as a dummy then. But python-canopen asks for all seven and refuses
-    /// the whole file where one is missing.
+    /// By the standard the data type cannot be mapped as a dummy then, and 0x1 is 1. But python-canopen asks for all seven,
+    /// reads them in decimal, and refuses the whole file where it cannot.
     ///
     /// ## Example
     /// ```eds
@@ -57,6 +58,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let empty: Vec<_> = (1..=7).filter_map(entry).filter(|entry| entry.is_empty()).collect();
     let mut edits: Vec<Edit> =
         empty.iter().map(|entry| Edit::insert(entry.value_span().start, "0")).collect();
+    report_hexadecimal(section, report);
     if absent.is_empty() && edits.is_empty() {
         return;
     }
@@ -90,6 +92,27 @@ fn check(context: &Context<'_>, report: &mut Report) {
         .safe_fix("Write 0 for the missing ones", edits);
 }
 
+/// Reports flags that are written as hexadecimal numbers.
+fn report_hexadecimal(section: Section<'_>, report: &mut Report) {
+    let flags = section.all_numbered(KeyName::Dummy).filter(|entry| (1..=7).contains(&entry.key().number));
+    let flags: Vec<(Entry<'_>, bool)> = flags
+        .filter(|entry| matches!(entry.raw(), [b'0', b'x' | b'X', ..]))
+        .filter_map(|entry| Some((entry, entry.flag().known()?)))
+        .collect();
+    let Some((first, flag)) = flags.first() else { return };
+    let (value, digit) = (first.text(), u8::from(*flag));
+    let message = format!(
+        "`{}` is `{value}`; python-canopen reads it in decimal and refuses the whole file",
+        first.key_text()
+    );
+    let edits =
+        flags.iter().map(|(entry, flag)| Edit::replace(entry.value_span(), u8::from(*flag).to_string()));
+    report
+        .add(first.value_span(), message)
+        .help(format!("write `{digit}`"))
+        .safe_fix("Write the flags in decimal", edits.collect());
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,5 +136,14 @@ mod tests {
         let empty = format!("[DummyUsage]\n{}", all.replace("3=0", "3="));
         assert_eq!(fixed(&DUMMY_USAGE_INCOMPLETE, &empty), format!("[DummyUsage]\n{all}"));
         assert_eq!(findings(&DUMMY_USAGE_INCOMPLETE, "[1000]\n"), [""; 0]);
+        let hexadecimal = format!("[DummyUsage]\n{}", all.replace("2=0", "2=0x1").replace("5=0", "5=0x00"));
+        assert_eq!(
+            findings(&DUMMY_USAGE_INCOMPLETE, &hexadecimal),
+            [
+                "3:11 info: `Dummy0002` is `0x1`; python-canopen reads it in decimal and refuses the whole file"
+            ]
+        );
+        let decimal = format!("[DummyUsage]\n{}", all.replace("2=0", "2=1"));
+        assert_eq!(fixed(&DUMMY_USAGE_INCOMPLETE, &hexadecimal), decimal);
     }
 }

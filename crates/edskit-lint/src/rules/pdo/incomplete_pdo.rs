@@ -1,4 +1,3 @@
-use crate::described::is_known;
 use crate::rule::rule;
 use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
@@ -75,7 +74,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
             _ => continue,
         };
         // One that a list names is the matter of LST004, one whose header is misspelt that of SYN008 or SYN023.
-        if is_known(context.sheet, other) || lost_header::hides(context, SectionKind::Object(other)) {
+        if context.listing().is_listed(other) || lost_header::hides(context, SectionKind::Object(other)) {
             continue;
         }
         report

@@ -1,4 +1,3 @@
-use crate::described::is_known;
 use crate::pdos::{DescribedPdo, Mapped, Target};
 use crate::rule::rule;
 use crate::rules::syntax::lost_header;
@@ -89,7 +88,7 @@ fn check_entry(context: &Context<'_>, pdo: &DescribedPdo<'_>, mapped: &Mapped<'_
         // One that a list names is the matter of LST004, one whose header is misspelt that of SYN008 or SYN023.
         Target::NoObject
             if !is_dynamic(context, index)
-                && !is_known(context.sheet, index)
+                && !context.listing().is_listed(index)
                 && !lost_header::hides(context, SectionKind::Object(index)) =>
         {
             report

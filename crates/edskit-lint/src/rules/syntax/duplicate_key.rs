@@ -70,8 +70,12 @@ fn may_repeat(section: Section<'_>) -> bool {
     false
 }
 
+/// For so many doubled keys of a section the one that is due is looked for. Where there are more, the list is no list.
+const MOST_LOOKED_AT: usize = 16;
+
 fn check_section(context: &Context<'_>, section: Section<'_>, report: &mut Report) {
     let mut known = HashMap::new();
+    let mut found = 0;
     for entry in section.entries() {
         // What follows a header that lost its line belongs to that section; see SYN008.
         if entry.raw().ends_with(b"]") && lost_header::on_line(context, entry.line_number()).is_some() {
@@ -82,12 +86,16 @@ fn check_section(context: &Context<'_>, section: Section<'_>, report: &mut Repor
             hash_map::Entry::Vacant(free) => {
                 free.insert(entry);
             }
-            hash_map::Entry::Occupied(first) => repeated(section, *first.get(), entry, report),
+            hash_map::Entry::Occupied(first) => {
+                found += 1;
+                let due = if found <= MOST_LOOKED_AT { due_key(section, entry) } else { None };
+                repeated(*first.get(), entry, due, report);
+            }
         }
     }
 }
 
-fn repeated(section: Section<'_>, first: Entry<'_>, again: Entry<'_>, report: &mut Report) {
+fn repeated(first: Entry<'_>, again: Entry<'_>, due: Option<String>, report: &mut Report) {
     let key = again.key_text();
     let same = first.raw() == again.raw();
     let message = if same {
@@ -102,7 +110,7 @@ fn repeated(section: Section<'_>, first: Entry<'_>, again: Entry<'_>, report: &m
             .severity(Severity::Warning)
             .help("delete one of the two")
             .safe_fix("Delete the second one", vec![Edit::delete(again.line().full_span())]);
-    } else if let Some(key) = due_key(section, again) {
+    } else if let Some(key) = due {
         let own = format!("{key}={}", again.text());
         finding
             .help(format!("write `{own}` if it has a place of its own, or delete one of the two"))

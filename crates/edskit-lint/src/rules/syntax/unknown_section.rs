@@ -9,7 +9,8 @@ rule! {
     ///
     /// ## What it does
     /// Lists the sections that CiA 306 does not know. Sections whose names differ only in the number at their end are
-    /// listed once. A name that looks like a known one is a warning. A sub-index above FFh is the matter of
+    /// listed once. A name that looks like a known one is a warning, also with letters that look like digits (`[1AOO]`),
+    /// and an error where the file is wrong without that section. A sub-index above FFh is the matter of
     /// sub-index-too-large.
     ///
     /// ## Why is this bad
@@ -93,10 +94,23 @@ pub(super) fn meant(context: &Context<'_>) -> Vec<SectionKind> {
 fn misspelt(context: &Context<'_>, section: Section<'_>, known: &str, report: &mut Report) {
     let message = format!("`[{}]` is not a section of CiA 306; it looks like `[{known}]`", section.name());
     let finding = report.add(section.name_span(), message);
-    finding.severity(Severity::Warning).help(format!("write `[{known}]` if that is meant"));
-    if context.sheet.section(SectionKind::of(known.as_bytes())).is_none() {
+    let kind = SectionKind::of(known.as_bytes());
+    let severity = if is_missed(context, kind) { Severity::Error } else { Severity::Warning };
+    finding.severity(severity).help(format!("write `[{known}]` if that is meant"));
+    if context.sheet.section(kind).is_none() {
         finding.unsafe_fix(format!("Write `[{known}]`"), vec![Edit::replace(section.name_span(), known)]);
     }
+}
+
+/// Whether a file is wrong without a section that it does not have: what a list names, or every file needs.
+fn is_missed(context: &Context<'_>, kind: SectionKind) -> bool {
+    let is_needed = match kind {
+        SectionKind::DeviceInfo | SectionKind::MandatoryObjects => true,
+        SectionKind::Object(index) => context.listing().is_listed(index),
+        SectionKind::SubObject(index, _) => context.listing().is_described(index),
+        _ => false,
+    };
+    is_needed && context.sheet.section(kind).is_none()
 }
 
 fn unknown(section: Section<'_>, count: usize, report: &mut Report) {
@@ -238,10 +252,12 @@ mod tests {
                 fixed(&UNKNOWN_SECTION, &format!("[1000]\n[{wrong}]\n")),
                 format!("[1000]\n[{right}]\n")
             );
-            assert!(
-                findings(&UNKNOWN_SECTION, &format!("[1000]\n[{wrong}]\n"))[0].contains("warning"),
-                "{wrong}"
-            );
+            let found =
+                |before: &str| findings(&UNKNOWN_SECTION, &format!("{before}[1000]\n[{wrong}]\n")).remove(0);
+            assert!(found("").contains(" warning"), "{wrong}");
+            let listed = found(&format!("[OptionalObjects]\n1=0x{}\n[1018]\n", &right[..4]));
+            let is_list = right.ends_with("Name");
+            assert_eq!(listed.contains(" error"), right != "1018" && !is_list, "{listed}");
         }
         let listed = "[OptionalObjects]\n1=0xA000\n[AOOO]\n";
         assert_eq!(fixed(&UNKNOWN_SECTION, listed), listed.replace("AOOO", "A000"));

@@ -1,7 +1,8 @@
+use super::repeats;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
-use edskit_model::{KeyName, Section, SectionKind, Span};
-use std::collections::HashMap;
+use edskit_model::{Key, KeyName, Section, SectionKind, Span};
+use std::collections::{HashMap, HashSet};
 
 rule! {
     /// A name is written in another case than CiA 306 writes it
@@ -63,13 +64,17 @@ fn check(context: &Context<'_>, report: &mut Report) {
         }
         found[place].edits.push(Edit::replace(span, usual));
     };
+    let repeated: HashSet<SectionKind> =
+        repeats::of_cia_306(context).map(|(_, again)| again.kind()).collect();
     for section in context.sheet.sections() {
-        if let Some(usual) = usual_name(section, source) {
+        // What stands twice is the matter of SYN013 and SYN014: in one case it would stand twice for all readers.
+        if let Some(usual) = usual_name(section, source).filter(|_| !repeated.contains(&section.kind())) {
             add(true, stem(section.kind(), &usual), section.name_span(), usual);
         }
         if section.kind() == SectionKind::Unknown {
             continue;
         }
+        let mut counts = None;
         for entry in section.entries() {
             let name = entry.key().name;
             let spelling = name.spelling().as_bytes();
@@ -78,7 +83,15 @@ fn check(context: &Context<'_>, report: &mut Report) {
             if spelling.is_empty() || text.starts_with(spelling) {
                 continue;
             }
-            if let Some(usual) = usual_key(name, text) {
+            let mut is_alone = || {
+                let count = |mut counts: HashMap<Key, usize>, key| {
+                    *counts.entry(key).or_default() += 1;
+                    counts
+                };
+                let counts = counts.get_or_insert_with(|| section.keys().fold(HashMap::new(), count));
+                counts.get(&entry.key()) == Some(&1)
+            };
+            if let Some(usual) = usual_key(name, text).filter(|_| is_alone()) {
                 add(false, name.spelling().to_owned(), written, usual);
             }
         }
@@ -197,6 +210,12 @@ mod tests {
         assert_eq!(fixed(&UNUSUAL_CASE, text), mended);
         let nodes = "[Topology]\nNODE1Present=1\nnode12dcfname=a.dcf\nNode2Name=b\n";
         assert_eq!(findings_in(&UNUSUAL_CASE, "a.cpj", nodes.as_bytes()).len(), 2);
+    }
+
+    #[test]
+    fn what_stands_twice_is_left_to_other_rules() {
+        let text = "[1000]\nParameterName=a\nparametername=b\n[FileInfo]\n[fileinfo]\n";
+        assert_eq!(findings(&UNUSUAL_CASE, text), [""; 0]);
     }
 
     #[test]

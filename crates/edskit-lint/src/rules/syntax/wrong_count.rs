@@ -109,11 +109,20 @@ fn check_section(section: Section<'_>, counted: &Counted, report: &mut Report) {
         count => crate::wording::count(count, noun),
     };
     let Some(entry) = section.filled(counted.count) else {
-        // A section without anything needs no count.
-        if !listed.is_empty() {
-            report
-                .add(section.span(), format!("`[{name}]` has {}, but no `{key}`", has(listed.len())))
-                .help(format!("add `{key}={}`", listed.len()));
+        // A section without anything needs no count, but python-canopen asks for that of comments.
+        if !listed.is_empty() || counted.count == KeyName::Lines {
+            let line = format!("{key}={}", listed.len());
+            let finding = report.add(
+                section.span(),
+                format!("`[{name}]` has no `{key}`; there {} {}", are(listed.len()), has(listed.len())),
+            );
+            finding.help(format!("add `{line}`"));
+            let is_whole = listed.last().is_none_or(|last| usize::from(*last) == listed.len());
+            if is_whole && section.entry(counted.count).is_none() {
+                let ending = section.sheet().document().line_ending().as_str();
+                let place = section.line().span().end;
+                finding.safe_fix("Add the count", vec![Edit::insert(place, format!("{ending}{line}"))]);
+            }
         }
         return;
     };
@@ -227,13 +236,13 @@ mod tests {
         );
         assert_eq!(
             found(&format!("[Comments]\n{lines}")),
-            "1:1 warning: `[Comments]` has 3 lines, but no `Lines`"
+            "1:1 warning: `[Comments]` has no `Lines`; there are 3 lines"
         );
         assert_eq!(found("[Comments]\nLines=1\n"), "2:7 warning: `Lines` is 1, but there is no line");
+        assert_eq!(found("[Comments]\n"), "1:1 warning: `[Comments]` has no `Lines`; there is no line");
+        assert_eq!(fixed(&WRONG_COUNT, "[Comments]\nLine1=a\n"), "[Comments]\nLines=1\nLine1=a\n");
         assert_eq!(
-            found("[Comments]\n")
-                + &found("[Comments]\nLines=0\n")
-                + &found("[Comments]\nLines=x\nLine1=a\n"),
+            found("[Tools]\n") + &found("[Comments]\nLines=0\n") + &found("[Comments]\nLines=x\nLine1=a\n"),
             ""
         );
     }
