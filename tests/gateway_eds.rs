@@ -35,7 +35,7 @@ fn default(sheet: &Datasheet, index: u16, sub_index: u8) -> Option<i128> {
 fn extent(sheet: &Datasheet, index: u16) -> Option<(i128, i128, i128, u8, Vec<u8>)> {
     let entry = sheet.dictionary_entry(Index(index), SubIndex(0))?;
     let number = |value: Option<Value<'_>>| value?.integer(DataType::Unsigned8, None).ok();
-    let [low, high] = entry.limits();
+    let [low, high] = entry.limits().map(|limit| limit?.known());
     let object = sheet.object(Index(index))?;
     let sub_indices = object.sub_objects().map(|sub_object| sub_object.sub_index().0).collect();
     let sub_number = object.description().sub_number()?.known()?;
