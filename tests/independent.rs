@@ -3,7 +3,7 @@
 //! Their numbers are in `corpus/independent.tsv`, and `corpus/README.md` says how they read. Where python-canopen has
 //! another number than edskit, `corpus/differences.tsv` says why, file by file.
 
-use edskit_model::{Datasheet, Description, Entry, Formula, KeyName, Number, Object, SectionKind};
+use edskit_model::{Datasheet, Description, Entry, Formula, KeyName, Number, Object, Section, SectionKind};
 use edskit_tests::root;
 use edskit_types::{DataType, DataTypeKind, Index, NodeId, ObjectCode, SubIndex};
 use std::collections::{BTreeMap, HashSet};
@@ -165,8 +165,8 @@ fn python_canopen_refuses_the_files_that_are_known() {
 /// edskit's reading in the plain reader's columns.
 fn plain_columns(sheet: &Datasheet) -> Columns {
     let mut columns = Columns::from([
-        ("objects", sheet.objects().len() as i128),
-        ("sub_objects", sheet.sub_objects().len() as i128),
+        ("objects", sheet.objects().filter(|object| is_plain(object.section())).count() as i128),
+        ("sub_objects", sheet.sub_objects().filter(|sub| is_plain(sub.section())).count() as i128),
     ]);
     for column in
         ["formulas", "reversed", "other_values", "sum"].into_iter().chain(KEYS.map(|(_, column)| column))
@@ -193,7 +193,8 @@ fn plain_columns(sheet: &Datasheet) -> Columns {
         }
     }
     let described = |kind: SectionKind| matches!(kind, SectionKind::Object(_) | SectionKind::SubObject(..));
-    let sections = sheet.sections().filter(|section| described(section.kind())).count() as i128;
+    let sections = sheet.sections().filter(|section| described(section.kind()) && is_plain(*section));
+    let sections = sections.count() as i128;
     columns.insert("repeated_sections", sections - columns["objects"] - columns["sub_objects"]);
     columns.insert("repeated_keys", descriptions(sheet).map(repeated_keys).sum());
     columns
@@ -304,7 +305,7 @@ fn typed_value(data_type: DataType, entry: Entry<'_>) -> Option<Reason> {
         DataTypeKind::Real => Some(Reason::Real),
         DataTypeKind::VisibleString | DataTypeKind::UnicodeString => Some(Reason::Text),
         DataTypeKind::OctetString | DataTypeKind::Domain => {
-            Some(if value.known().is_some() { Reason::Bytes } else { Reason::NoBytes })
+            Some(if value.value.is_ok() { Reason::Bytes } else { Reason::NoBytes })
         }
         _ => None,
     }
@@ -341,7 +342,16 @@ fn repeated_keys(description: Description<'_>) -> i128 {
 
 fn descriptions(sheet: &Datasheet) -> impl Iterator<Item = Description<'_>> {
     let objects = sheet.objects().map(Object::description);
-    objects.chain(sheet.sub_objects().map(|sub| sub.description()))
+    let all = objects.chain(sheet.sub_objects().map(|sub| sub.description()));
+    all.filter(|description| is_plain(description.section()))
+}
+
+/// Whether the plain reader takes a section for that of an object, too: it knows no slips in names, and no sub-index of three
+/// decimal digits.
+fn is_plain(section: Section<'_>) -> bool {
+    let name = section.name();
+    let kind = SectionKind::of(name.as_bytes());
+    kind != SectionKind::Unknown && !kind.is_misspelt(name.as_bytes())
 }
 
 /// A value without regard to its data type, as the plain reader sees it.

@@ -26,7 +26,7 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     (
         "edskit-codegen",
         &["edskit-types", "edskit-model", "edskit-lint", "edskit-runtime"],
-        Only(&["askama", "serde", "toml"]),
+        Only(&["askama", "globset", "serde", "toml"]),
     ),
     (
         "edskit",
@@ -38,6 +38,8 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
             "edskit-codegen",
             "edskit-runtime",
             "edskit-host",
+            // Only for tests that need the command itself.
+            "edskit-tests",
         ],
         Any,
     ),

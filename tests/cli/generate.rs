@@ -52,3 +52,26 @@ fn what_cannot_be_generated() {
         insta::assert_snapshot!(format!("generate_{name}"), folder.clean(&output));
     }
 }
+
+#[test]
+fn the_settings_of_lint_hold() {
+    let folder = Folder::new("generate-settings");
+    let text = "[2000]\nParameterName=x\nObjectType=7\nDataType=5\nAccessType=rw\nDefaultValue=300\n[DeviceComissioning]\n";
+    let eds = folder.write("x.eds", text);
+    let output = || edskit(&["generate", &eds, "-o", folder.path()]);
+    let refused = output();
+    assert!(refused.stderr.contains(":6:14: VAL002 "), "{}", refused.all());
+    folder.write("edskit.toml", "[severity]\nVAL002 = 'warning'\n");
+    let accepted = output().stderr;
+    assert!(
+        accepted.contains("warning: ")
+            && accepted.contains(":6:14: VAL002 ")
+            && !accepted.contains("error: "),
+        "{accepted}"
+    );
+    folder.write("edskit.toml", "ignore = ['VAL002']\n");
+    assert!(output().stderr.contains(":6:14: GEN `300` is left out: 300 is outside the data type"));
+    folder.write("edskit.toml", "");
+    folder.write("x.eds", text.replace("[2000]", ";edskit: allow(VAL002) as delivered\n[2000]"));
+    assert!(!output().stderr.contains("error: "));
+}

@@ -9,6 +9,7 @@ mod generate;
 mod help;
 mod lint;
 mod neighbours;
+mod own_files;
 mod pages;
 mod profiles;
 mod run;

@@ -17,8 +17,19 @@ fn what_cannot_be_run() {
     );
     let wrong: String = (0x2000..0x2030).map(|index| format!("[{index:X}]\nDataType=6\n")).collect();
     let wrong = folder.write("wrong.eds", &wrong);
+    let unusable = folder.write(
+        "unusable.eds",
+        "[1001]\nParameterName=Errors\nDataType=5\nAccessType=ro\nDefaultValue=0\n\
+         [1005]\nParameterName=SYNC\nDataType=7\nAccessType=rw\n\
+         [1800]\nParameterName=TPDO 1\nObjectType=9\nSubNumber=3\n\
+         [1800sub0]\nParameterName=n\nDataType=5\nAccessType=ro\n\
+         [1800sub1]\nParameterName=COB-ID\nDataType=7\nAccessType=rw\nDefaultValue=0\n\
+         [1800sub2]\nParameterName=Type\nDataType=5\nAccessType=rw\nDefaultValue=255\n\
+         [2014]\nParameterName=Program\nObjectType=2\nDataType=15\nAccessType=rw\nDefaultValue=0102\n",
+    );
     let nobody = "socketcand:127.0.0.1:1/can0";
-    let cases: [(&str, &[&str]); 8] = [
+    let cases: [(&str, &[&str]); 9] = [
+        ("unusable", &[&unusable, "--bus", nobody]),
         ("missing", &["nowhere.eds"]),
         ("nothing", &[&empty]),
         ("side_file", &[&with_side_file]),

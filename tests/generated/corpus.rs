@@ -3,7 +3,7 @@
 use crate::checks::complaints;
 use crate::compiler::{Packages, stderr};
 use edskit_codegen::{Naming, generate, parse, render};
-use edskit_lint::{Linter, RuleSet};
+use edskit_lint::{Linter, RuleSet, Severity};
 use std::collections::BTreeSet;
 
 /// How many packages the code is divided into: the compiler works on one at a time per core.
@@ -26,7 +26,12 @@ fn corpus_generates() {
             Err(problems) => panic!("{}: {}", file.name, problems[0].line(&name, "")),
         };
         let code = render(&layout, &Naming::of(&name));
-        let problems = layout.mapping_problems();
+        // What a PDO carries that does not exist at power-on is a warning, and nothing for the compiler.
+        let problems: Vec<_> = layout
+            .mapping_problems()
+            .into_iter()
+            .filter(|problem| problem.severity == Severity::Error)
+            .collect();
         match generate(&file.bytes, None, &Naming::of(&file.name), &linter) {
             Ok(_) => accepted += 1,
             Err(errors) if errors.iter().all(|error| error.code != "GEN") => {}

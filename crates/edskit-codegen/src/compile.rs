@@ -1,10 +1,10 @@
 //! For build scripts: the one part of the crate that knows files, the environment, and cargo.
 
-use crate::{Naming, Problem, generate, module_name};
-use edskit_lint::{Linter, RuleSet};
+use crate::{Naming, Problem, generate, module_name, settings};
+use edskit_lint::{Linter, Profile, RuleSet};
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, absolute};
 use std::{env, fs};
 
 /// Generates the dictionary of an EDS or DCF, whose path is seen from the package; for build scripts.
@@ -15,8 +15,9 @@ use std::{env, fs};
 /// ```
 ///
 /// The module `device` lies in `$OUT_DIR/Device.rs` afterwards, and `edskit_runtime::include_dictionary!("Device")` takes
-/// it in. A side-file `eds/Device.toml` is read where there is one. Warnings become warnings of cargo. Errors become
-/// errors of cargo and fail the build.
+/// it in. A side-file `eds/Device.toml` is read where there is one. What makes the dictionary wrong or ambiguous becomes an
+/// error of cargo and fails the build; everything else that the linter and the generator say becomes a warning of cargo.
+/// `edskit.toml`, found upwards from the EDS, and comments `;edskit: allow(RULE)` count as in `edskit lint`.
 pub fn compile(eds: impl AsRef<Path>) {
     Config::new().compile(eds);
 }
@@ -33,7 +34,8 @@ pub struct Config {
     side_file: Option<PathBuf>,
     runtime: Option<String>,
     out_dir: Option<PathBuf>,
-    rules: RuleSet,
+    rules: Option<RuleSet>,
+    allowed: Vec<String>,
 }
 
 impl Config {
@@ -72,10 +74,29 @@ impl Config {
         self
     }
 
-    /// The rules that the EDS is held to, instead of those that are on where nobody says anything.
+    /// The rules that the EDS is held to, instead of those of `edskit.toml` or, without one, those that are on where nobody
+    /// says anything.
+    ///
+    /// ```no_run
+    /// use edskit_codegen::{Config, RuleSet, Severity};
+    /// let mut rules = RuleSet::default();
+    /// rules.set_severity("OBJ015", Severity::Error).unwrap();
+    /// Config::new().rules(rules).compile("eds/Device.eds");
+    /// ```
     #[must_use]
     pub fn rules(mut self, rules: RuleSet) -> Self {
-        self.rules = rules;
+        self.rules = Some(rules);
+        self
+    }
+
+    /// Switches a rule off, by its code, its name, or a prefix of codes; a name that is none fails the build.
+    ///
+    /// ```no_run
+    /// edskit_codegen::Config::new().allow("VAL003").allow("PDO").compile("eds/Device.eds");
+    /// ```
+    #[must_use]
+    pub fn allow(mut self, rule: impl Into<String>) -> Self {
+        self.allowed.push(rule.into());
         self
     }
 
@@ -93,7 +114,10 @@ impl Config {
             Ok(inputs) => inputs,
             Err(message) => return say(cargo, "error", &message),
         };
-        let linter = Linter::new(self.rules.clone());
+        let linter = match self.linter(eds, cargo)? {
+            Ok(linter) => linter,
+            Err(message) => return say(cargo, "error", &message),
+        };
         let line = |problem: &Problem| problem.line(&naming.eds, &naming.side_file).to_string();
         let generated = match generate(&inputs.eds, inputs.side_file.as_deref(), &naming, &linter) {
             Ok(generated) => generated,
@@ -114,6 +138,44 @@ impl Config {
             Ok(_) => Ok(()),
             Err(error) => say(cargo, "error", &format!("{}: {error}", path.display())),
         }
+    }
+
+    /// The linter with the rules that hold for the EDS.
+    fn linter(&self, eds: &Path, cargo: &mut dyn Write) -> io::Result<Result<Linter, String>> {
+        let mut profiles = Vec::new();
+        let mut rules = self.rules.clone().unwrap_or_default();
+        let whole = absolute(eds).unwrap_or_else(|_| eds.to_path_buf());
+        let candidates = whole.ancestors().skip(1).map(|folder| (folder, folder.join(settings::FILE_NAME)));
+        let found = candidates.into_iter().find(|(_, path)| self.rules.is_none() && path.is_file());
+        if let Some((folder, path)) = found {
+            say(cargo, "rerun-if-changed", &path.to_string_lossy())?;
+            let wrong = |error: &dyn core::fmt::Display| Ok(Err(format!("{}:{error}", path.display())));
+            let text = match fs::read_to_string(&path) {
+                Ok(text) => text,
+                Err(error) => return wrong(&error),
+            };
+            let relative = whole.strip_prefix(folder).unwrap_or(&whole).to_string_lossy().replace('\\', "/");
+            let said = match settings::rules_for(&text, &relative) {
+                Ok(said) => said,
+                Err(error) => return wrong(&error),
+            };
+            rules = said.rules;
+            for name in said.profiles {
+                let path = folder.join(name);
+                say(cargo, "rerun-if-changed", &path.to_string_lossy())?;
+                let read = fs::read_to_string(&path).map_err(|error| error.to_string());
+                match read.and_then(|text| Profile::parse(&text).map_err(|error| error.to_string())) {
+                    Ok(profile) => profiles.push(profile),
+                    Err(error) => return Ok(Err(format!("{}: {error}", path.display()))),
+                }
+            }
+        }
+        for selector in &self.allowed {
+            if let Err(error) = rules.ignore(selector) {
+                return Ok(Err(format!("Config::allow: {error}")));
+            }
+        }
+        Ok(Ok(Linter::new(rules).with_profiles(profiles)))
     }
 
     fn naming(&self, eds: &Path) -> Naming {

@@ -1,5 +1,6 @@
 //! From the bytes of an EDS to code, without any file.
 
+use crate::gate::Gate;
 use crate::{Layout, Naming, Problem, SideFile, lay_out, render};
 use edskit_lint::{FileKind, Linter, Severity};
 use edskit_model::Datasheet;
@@ -34,7 +35,9 @@ pub fn parse(eds: &[u8], side_file: Option<&str>) -> Result<Layout, Vec<Problem>
 /// ```
 ///
 /// # Errors
-/// Every finding of severity error, or what makes a dictionary impossible.
+/// What makes the dictionary wrong, ambiguous or impossible: findings of severity error where a value or type is lost or
+/// something is described twice, findings of rules that were given the severity error, mappings that lead nowhere. All other
+/// findings are warnings.
 pub fn generate(
     eds: &[u8],
     side_file: Option<&str>,
@@ -44,19 +47,26 @@ pub fn generate(
     let sheet = Datasheet::parse(eds);
     let file_name = naming.eds.rsplit(['/', '\\']).next();
     let findings = linter.lint(&sheet, FileKind::of(&naming.eds), file_name);
-    let problems = findings.into_iter().map(|finding| Problem::of_finding(sheet.document(), finding));
-    let (errors, mut warnings): (Vec<_>, Vec<_>) =
-        problems.partition(|problem| problem.severity == Severity::Error);
+    let layout = lay_out(&sheet, &read_side_file(side_file)?);
+    let gate = Gate::new(&sheet, linter.rules(), layout.as_ref().ok());
+    let (stopping, others): (Vec<_>, Vec<_>) = findings.into_iter().partition(|finding| gate.stops(finding));
+    let problem = |finding| Problem::of_finding(sheet.document(), finding);
+    if !stopping.is_empty() {
+        return Err(stopping.into_iter().map(problem).collect());
+    }
+    let layout = layout?;
+    let (errors, unused): (Vec<_>, Vec<_>) =
+        layout.mapping_problems().into_iter().partition(|problem| problem.severity == Severity::Error);
     if !errors.is_empty() {
         return Err(errors);
     }
-    let layout = lay_out(&sheet, &read_side_file(side_file)?)?;
-    let errors = layout.mapping_problems();
-    if !errors.is_empty() {
-        return Err(errors);
-    }
-    warnings.retain(|problem| problem.severity == Severity::Warning);
+    let mut warnings = layout.assumptions.clone();
+    let of_linter = others.into_iter().filter(|finding| finding.severity >= Severity::Warning).map(problem);
+    warnings.extend(of_linter.map(|problem| Problem { severity: Severity::Warning, ..problem }));
+    warnings.extend_from_slice(&layout.lost);
     warnings.extend_from_slice(&layout.notes);
+    warnings.extend(layout.cob_id_problems(None));
+    warnings.extend(unused);
     Ok(Generated { code: render(&layout, naming), layout, warnings })
 }
 

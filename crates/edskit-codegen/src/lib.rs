@@ -13,7 +13,7 @@
 //!
 //! | idea | items |
 //! |---|---|
-//! | for build scripts | [`compile`], [`Config`] |
+//! | for build scripts | [`compile`], [`Config`]; the rules of the linter: [`RuleSet`], [`Severity`] |
 //! | the same without files | [`generate`], [`parse`], [`render`] |
 //! | the dictionary as data | [`Layout`], [`lay_out`] |
 //! | a node without compiling | [`LoadedDictionary`] |
@@ -21,19 +21,24 @@
 //! | what stands against it | [`Problem`] |
 
 mod compile;
+mod gate;
 mod generate;
 mod identifier;
 mod layout;
 mod loaded;
 mod problem;
 mod render;
+mod settings;
 mod side_file;
 mod text;
 
 pub use compile::{Config, compile, write_if_changed};
+pub use edskit_lint::{RuleSet, Severity};
 pub use generate::{Generated, generate, parse};
 pub use identifier::module_name;
-pub use layout::{Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out};
+pub use layout::{
+    CobIdParameter, Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out,
+};
 pub use loaded::LoadedDictionary;
 pub use problem::{InputFile, Problem};
 pub use render::{Naming, render};

@@ -148,8 +148,10 @@ pub struct Variable<'a> {
     pub code: Option<ObjectCode>,
     /// The data type's index as written.
     pub data_type: Option<Field<'a, u16>>,
-    /// The data type, if it is one of CiA 301.
+    /// The data type of CiA 301: the one that is named, or the one behind a type that the file defines.
     pub standard_type: Option<DataType>,
+    /// The limits of the range type that it has, read by the data type.
+    pub range: [Option<Field<'a, Value<'a>>>; 2],
     /// The access as written.
     pub access_type: Option<Field<'a, AccessType>>,
     /// The mapping right as written.
@@ -200,8 +202,15 @@ impl<'a> Variable<'a> {
         let object_type = object_type.map(Entry::object_code).filter(is_filled);
         let code = object_type.map_or(Some(ObjectCode::Var), Field::known);
         let data_type = data_type.map(Entry::unsigned::<u16>).filter(is_filled);
+        let mut range = [None, None];
         let standard_type = match data_type {
-            Some(field) => field.known().and_then(|index| DataType::from_index(Index(index))),
+            Some(field) => field.known().and_then(|index| {
+                DataType::from_index(Index(index)).or_else(|| {
+                    let resolved = description.sheet().resolve_type(Index(index))?;
+                    range = [resolved.low, resolved.high];
+                    Some(resolved.data_type)
+                })
+            }),
             None => (code == Some(ObjectCode::Domain)).then_some(DataType::Domain),
         };
         let value =
@@ -214,6 +223,7 @@ impl<'a> Variable<'a> {
             code,
             data_type,
             standard_type,
+            range,
             access_type: access_type.map(Entry::access_type).filter(is_filled),
             pdo_mapping: pdo_mapping.map(Entry::flag).filter(is_filled),
             srdo_mapping: srdo_mapping.map(Entry::flag).filter(is_filled),

@@ -1,22 +1,35 @@
-//! Text behind a value that was meant as a comment. CiA 306 knows none: it belongs to the value.
+//! Comments behind values, which SYN012 moves to a line of their own.
+//!
+//! Every other rule reads the value without the comment, and would take it away together with the value.
 
-/// The length of the value before a blank and `;` or `#`, where a value holds such a thing.
-///
-/// Only values that are no free text are asked; SYN012 reports them, and every other rule leaves them alone.
-pub(crate) fn value_length(raw: &[u8]) -> Option<usize> {
-    let start = raw.windows(2).position(|pair| matches!(pair, [b' ' | b'\t', b';' | b'#']))?;
-    Some(raw[..start].trim_ascii_end().len())
-}
+use crate::rules::syntax::inline_comment::INLINE_COMMENT;
+use crate::{Context, Edit, Finding};
+use edskit_model::meant::value_length;
+use edskit_model::{Shape, Span};
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_blank_must_stand_before_the_mark() {
-        assert_eq!(value_length(b"0x0005 ; U8"), Some(6));
-        assert_eq!(value_length(b"5 \t# five"), Some(1));
-        assert_eq!(value_length(b"0;2"), None);
-        assert_eq!(value_length(b"rw"), None);
+/// Takes out fixes that would delete such a comment: once SYN012 has moved it, they are offered again.
+pub(crate) fn protect(context: &Context<'_>, findings: &mut [Finding]) {
+    let comments: Vec<Span> = context
+        .odd_entries()
+        .filter(|entry| {
+            let shape = entry.section().map(|section| section.kind().shape_of(entry.key().name));
+            !matches!(shape, None | Some(Shape::Text(_)))
+        })
+        .filter_map(|entry| {
+            let value = entry.value_span();
+            let length = value_length(entry.raw())?;
+            Some(value.sub(length, value.len() - length))
+        })
+        .collect();
+    if comments.is_empty() {
+        return;
+    }
+    for finding in findings.iter_mut().filter(|finding| *finding.rule != INLINE_COMMENT) {
+        let deletes = |edit: &Edit| {
+            comments.iter().any(|comment| edit.span.start < comment.end && comment.start < edit.span.end)
+        };
+        if finding.fix.as_ref().is_some_and(|fix| fix.edits.iter().any(deletes)) {
+            finding.fix = None;
+        }
     }
 }

@@ -26,22 +26,21 @@ mod profile;
 mod rule;
 mod rule_set;
 pub mod rules;
-mod similar;
 mod suppression;
 #[cfg(test)]
 mod testing;
 mod wording;
 
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
+pub use edskit_model::nearest;
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
 pub use fixer::{Fixed, fix, fix_with};
 pub use linter::Linter;
 pub use neighbours::Neighbours;
 pub use peers::{PEER_FINDINGS, Peer, PeerFinding};
-pub use profile::{Profile, ProfileError};
+pub use profile::{Profile, ProfileError, StandardDefault, standard_default};
 pub use rule::{
     ALL_FILES, Check, DEVICE_FILES, EntryCheck, FileCheck, FileKind, FileKinds, Group, LineCheck, NODE_LISTS,
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};
-pub use similar::nearest;

@@ -2,6 +2,7 @@
 
 use crate::conflicts::Conflicts;
 use crate::context::{Context, Report, Variable};
+use crate::inline_comment;
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
 use crate::rules::syntax::line_without_equals::{self, LINE_WITHOUT_EQUALS};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
@@ -114,6 +115,7 @@ impl Linter {
         }
         let mut findings = report.into_findings();
         line_without_equals::take_over_lost_headers(context, &mut findings);
+        inline_comment::protect(context, &mut findings);
         for label in findings.iter_mut().flat_map(|finding| &mut finding.labels) {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);

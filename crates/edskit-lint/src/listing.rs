@@ -1,7 +1,7 @@
 //! The three lists of objects, read once for all rules that ask about them.
 
-use crate::inline_comment::value_length;
-use edskit_model::{Datasheet, Document, Entry, KeyName, Number, Radix, Section, SectionKind, Span};
+use edskit_model::meant::without_prefix;
+use edskit_model::{Datasheet, Document, Entry, KeyName, Section, SectionKind, Span};
 use edskit_types::{Index, ObjectArea};
 
 /// One of the lists of objects.
@@ -149,10 +149,13 @@ impl Listing {
             if key.name != KeyName::Unknown {
                 return None;
             }
-            let index = known(index(entry)?)?;
+            let index = known(entry.unsigned().known()?)?;
             return Some(Item { list, key: ItemKey::Other, index: Some(index), lacks_prefix: false, line });
         }
-        let value = index(entry);
+        // Digits without `0x` are looked up below.
+        let is_bare = without_prefix(entry.raw()).is_some();
+        let value = entry.unsigned();
+        let value = if is_bare { value.value.ok() } else { value.known() };
         if let Some(index) = value.and_then(known) {
             let key = ItemKey::Number(key.number);
             return Some(Item { list, key, index: Some(index), lacks_prefix: false, line });
@@ -161,10 +164,10 @@ impl Listing {
             return None;
         }
         // Only what no section describes comes here, so it may take its time.
-        let lacks_prefix = hexadecimal(entry.raw()).and_then(known);
+        let lacks_prefix = without_prefix(entry.raw()).and_then(known);
         let is_no_index = value.is_none_or(|value| value < FIRST_OBJECT);
         let from_key =
-            is_no_index.then(|| hexadecimal(entry.key_text().as_bytes())).flatten().and_then(known);
+            is_no_index.then(|| without_prefix(entry.key_text().as_bytes())).flatten().and_then(known);
         let key = match (lacks_prefix, from_key) {
             (None, Some(_)) => ItemKey::Index,
             _ => ItemKey::Number(key.number),
@@ -216,21 +219,6 @@ impl Listing {
         let indices = sheet.objects().map(|object| object.index());
         indices.filter(|&index| !self.is_listed(index) && List::of(index) == Some(list)).collect()
     }
-}
-
-/// The index that an item names; what was meant as a comment behind it is left out.
-fn index(entry: Entry<'_>) -> Option<u16> {
-    let raw = entry.raw();
-    let number = Number::parse(raw).ok().or_else(|| Number::parse(&raw[..value_length(raw)?]).ok());
-    number?.to()
-}
-
-/// The number that a text without `0x` would be as hexadecimal digits.
-fn hexadecimal(text: &[u8]) -> Option<u16> {
-    if text.len() > 4 || Number::parse(text).is_ok_and(|number| number.radix() == Radix::Hexadecimal) {
-        return None;
-    }
-    u16::from_str_radix(std::str::from_utf8(text).ok()?, 16).ok()
 }
 
 /// A set of indices: one bit for each.

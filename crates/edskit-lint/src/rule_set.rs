@@ -82,6 +82,12 @@ impl RuleSet {
         self.enabled().any(|enabled| enabled == rule)
     }
 
+    /// How bad somebody has said the findings of a rule are; `None` where the rule itself says it.
+    pub fn said_severity(&self, rule: &Rule) -> Option<Severity> {
+        let position = ALL.iter().position(|known| **known == *rule)?;
+        self.states[position].severity
+    }
+
     pub(crate) fn apply_severities(&self, findings: &mut [Finding]) {
         if self.states.iter().all(|state| state.severity.is_none()) {
             return;
@@ -151,7 +157,7 @@ impl core::error::Error for UnknownRule {}
 fn nearest(selector: &str) -> Option<&'static str> {
     let lower = selector.to_ascii_lowercase();
     let names = ALL.iter().flat_map(|rule| [rule.code, rule.name]);
-    crate::similar::nearest(&lower, names)
+    edskit_model::nearest(&lower, names)
 }
 
 #[cfg(test)]

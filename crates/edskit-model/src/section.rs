@@ -113,10 +113,17 @@ impl SectionKind {
                 decimal(rest).map_or(Self::Unknown, Self::Topology)
             };
         }
-        if let Some(rest) = strip_prefix(name, "M") {
-            return module_section(rest).unwrap_or(Self::Unknown);
+        if let Some(section) = strip_prefix(name, "M").and_then(module_section) {
+            return section;
         }
-        Self::Unknown
+        misspelt_section(name).unwrap_or(Self::Unknown)
+    }
+
+    /// Whether a name that stands for this kind is misspelt: more than a leading zero, `0x` or a second m is wrong with it.
+    pub fn is_misspelt(self, name: &[u8]) -> bool {
+        self.is_alternative_spelling(name)
+            && self.index().is_some()
+            && object_section(name).is_none_or(|kind| kind != self)
     }
 
     /// The name as CiA 306 spells it, `None` for a section that CiA 306 does not know.
@@ -209,6 +216,45 @@ impl SectionKind {
     }
 }
 
+/// What may stand between the index, `sub` and the sub-index by a slip.
+const SEPARATORS: &[u8] = b" \t_-.:/";
+
+/// An index or sub-index in the notation of the manuals or of a language: `1018h`, `0x1018`, `$1018`, `x1018`.
+fn spelt_otherwise(text: &[u8]) -> Option<(u16, &[u8])> {
+    let prefixes = ["0x", "x", "$", "&H", "16#"];
+    let digits = prefixes.iter().find_map(|prefix| strip_prefix(text, prefix)).unwrap_or(text);
+    let (number, rest) = hex(digits)?;
+    // `[Each]` and `[Add Value]` are words, and no EACh and ADDh.
+    let is_number = digits[..digits.len() - rest.len()].iter().any(u8::is_ascii_digit);
+    is_number.then(|| (number, strip_prefix(rest, "h").unwrap_or(rest)))
+}
+
+fn without_separators(text: &[u8]) -> &[u8] {
+    let start = text.iter().position(|byte| !SEPARATORS.contains(byte)).unwrap_or(text.len());
+    &text[start..]
+}
+
+/// `1018h`, `$1018`, `1018 sub 1`, `1018hsub01h`, `1018subindex1`: names that are a sure step from that of an object or of a
+/// part of it.
+#[cold]
+fn misspelt_section(name: &[u8]) -> Option<SectionKind> {
+    let (index, rest) = spelt_otherwise(name)?;
+    let rest = without_separators(rest);
+    let Some(rest) = strip_prefix(rest, "sub") else {
+        return suffixed(Index(index), rest);
+    };
+    let rest = ["-index", "index", "idx"].iter().find_map(|word| strip_prefix(rest, word)).unwrap_or(rest);
+    let (sub, rest) = spelt_sub_index(without_separators(rest))?;
+    rest.is_empty().then_some(SectionKind::SubObject(Index(index), SubIndex(sub)))
+}
+
+/// A sub-index has at most two digits, so that `h` behind it is no part of a word.
+fn spelt_sub_index(text: &[u8]) -> Option<(u8, &[u8])> {
+    let digits = ["0x", "x", "$"].iter().find_map(|prefix| strip_prefix(text, prefix)).unwrap_or(text);
+    let (number, rest) = hex(digits)?;
+    Some((u8::try_from(number).ok()?, strip_prefix(rest, "h").unwrap_or(rest)))
+}
+
 /// `1018`, `1018sub1`, `1018Name` and so on.
 #[inline]
 fn object_section(name: &[u8]) -> Option<SectionKind> {
@@ -221,6 +267,14 @@ fn object_section(name: &[u8]) -> Option<SectionKind> {
         let (sub, rest) = hex(strip_prefix(digits, "0x").unwrap_or(digits))?;
         let sub = u8::try_from(sub).ok()?;
         return rest.is_empty().then_some(SectionKind::SubObject(index, SubIndex(sub)));
+    }
+    suffixed(index, rest)
+}
+
+/// What a section is that has this behind the index.
+fn suffixed(index: Index, rest: &[u8]) -> Option<SectionKind> {
+    if rest.is_empty() {
+        return Some(SectionKind::Object(index));
     }
     type Suffix = (&'static str, fn(Index) -> SectionKind);
     const SUFFIXES: [Suffix; 4] = [
@@ -356,6 +410,22 @@ mod tests {
             ("01000ObjectLinks", "1000ObjectLinks"),
             ("M01ModuleInfo", "M1ModuleInfo"),
             ("DeviceCommissioning", "DeviceComissioning"),
+            ("1000h", "1000"),
+            ("1A00H", "1A00"),
+            ("$1000", "1000"),
+            ("x1000", "1000"),
+            ("1018hsub1", "1018sub1"),
+            ("1018sub01h", "1018sub1"),
+            ("0x1018h sub 0x1", "1018sub1"),
+            ("1018 sub1", "1018sub1"),
+            ("1018_sub_A", "1018subA"),
+            ("1018.sub1", "1018sub1"),
+            ("1018subindex1", "1018sub1"),
+            ("1018Sub-Index 1", "1018sub1"),
+            ("1016hName", "1016Name"),
+            ("1016 Value", "1016Value"),
+            ("2100hDenotation", "2100Denotation"),
+            ("A0h", "A0"),
         ] {
             let kind = SectionKind::of(name.as_bytes());
             assert_eq!(kind, SectionKind::of(canonical.as_bytes()), "{name}");
@@ -386,7 +456,14 @@ mod tests {
             "MFixed1000",
             "Toolbox",
             "FEED ME",
+            "Each",
+            "Beach",
+            "Add Value",
             "1000Names",
+            "1000hh",
+            "1018sub1x",
+            "1018 subway",
+            "1018-1",
         ] {
             assert_eq!(SectionKind::of(name.as_bytes()), SectionKind::Unknown, "{name}");
         }

@@ -12,8 +12,8 @@
 //! | rights on an object | [`AccessType`] |
 //! | type of a value | [`DataType`], [`DataTypeKind`] |
 //! | when a PDO is sent or applied | [`TransmissionType`], [`Transmission`], [`PdoDirection`] |
-//! | who uses which identifier, and what is in whose way | [`Claim`], [`Party`], [`conflicts`], [`IdentifierRules`] |
-//! | speed of the bus | [`Bitrate`] |
+//! | who uses which identifier, and what is in whose way | [`Claim`], [`Party`], [`conflicts`], [`IdentifierRules`], [`CobIdFault`] |
+//! | speed of the bus | [`Bitrate`], [`BitRates`] |
 //! | state of a device, and what changes it | [`NmtState`], [`NmtCommand`] |
 //! | why an SDO transfer was refused | [`AbortCode`] |
 //! | what an emergency message says | [`EmergencyCode`], [`ErrorRegister`] |
@@ -58,12 +58,13 @@ mod transmission_type;
 
 pub use abort_code::AbortCode;
 pub use access_type::AccessType;
-pub use bitrate::Bitrate;
+pub use bitrate::{BitRates, Bitrate};
 pub use cob_id::{CanId, CobId};
 pub use data_type::{DataType, DataTypeKind};
 pub use emergency_code::{EmergencyCode, ErrorRegister};
 pub use identifiers::{
-    Claim, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole, conflicts,
+    Claim, CobIdFault, Conflict, IdentifierRules, Opponent, Party, Restriction, SdoMessage, SdoRole,
+    conflicts,
 };
 pub use index::{Index, ObjectArea, SubIndex};
 pub use mapping_entry::MappingEntry;

@@ -4,7 +4,7 @@ mod live;
 
 pub(crate) use live::{
     BusArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, RunArguments, SdoArguments,
-    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
+    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments, TransferKind,
 };
 
 use crate::files;
@@ -213,6 +213,9 @@ pub(crate) struct ShowArguments {
     /// Evaluate `$NODEID` with this node-ID, 1..127; a DCF's own is used where none is given
     #[arg(long, value_name = "ID", value_parser = parse_node_id)]
     pub(crate) node_id: Option<NodeId>,
+    /// List what is written wrongly and read as it was meant, instead of the device
+    #[arg(long, conflicts_with = "place")]
+    pub(crate) meant: bool,
     /// How it is printed
     #[arg(long, value_enum, default_value_t = ShowFormat::Human)]
     pub(crate) format: ShowFormat,
@@ -251,6 +254,48 @@ pub(crate) enum ConfigCommand {
     /// It is the data sheet of the gateway with what the parameters make of it: node-ID, bit rate, the entries that exist,
     /// and what they hold after a start. What there is to say on the parameters is printed to the error stream.
     Dcf(ConfigDcfArguments),
+    /// Make a parameter file of a table, as the PC tool exports it
+    ///
+    /// A row has number, name, value and unit, divided by `;`, tabs or blanks; numbers may have a decimal comma, and columns
+    /// and rows any order. Rows of what is no parameter of the gateway, or nothing here follows from, are kept as comments.
+    Import(ConfigImportArguments),
+    /// Write the parameters of a file as a table
+    Export(ConfigExportArguments),
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigImportArguments {
+    /// The tables, for instance one of the gateway and one of the governor; `-` reads standard input
+    #[arg(value_name = "FILE", required = true, value_hint = ValueHint::FilePath)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Where the parameter file goes; standard output if not given
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) output: Option<PathBuf>,
+    /// Whose parameters these are, where the table does not say so and their names do not
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<ConfigUnit>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigExportArguments {
+    /// The parameter file; `-` reads standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// Where the table goes; standard output if not given
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) output: Option<PathBuf>,
+    /// The parameters of one unit alone, without a title
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<ConfigUnit>,
+}
+
+/// One of the two control units.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ConfigUnit {
+    /// The CANopen gateway
+    Gateway,
+    /// The digital governor
+    Governor,
 }
 
 #[derive(Args, Debug)]
@@ -320,7 +365,7 @@ pub(crate) enum LogFormat {
 
 #[derive(Args, Debug)]
 pub(crate) struct ExplainArguments {
-    /// Codes (SYN013), names (duplicate-section) or prefixes of codes (SYN)
+    /// Codes (SYN013, GWC011), names (duplicate-section) or prefixes of codes (SYN)
     #[arg(value_name = "RULE", required_unless_present = "all", conflicts_with = "all")]
     pub(crate) rules: Vec<String>,
     /// Every rule

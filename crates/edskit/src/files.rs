@@ -4,6 +4,7 @@ mod globs;
 
 use crate::{Streams, paths};
 use edskit_model::Datasheet;
+use edskit_model::own_file::OwnFile;
 use std::collections::{HashMap, HashSet};
 use std::ffi::OsString;
 use std::fs;
@@ -146,6 +147,18 @@ pub(crate) fn read(path: &Path, streams: &mut Streams) -> io::Result<Vec<u8>> {
         return Ok(bytes);
     }
     fs::read(path).map_err(|error| io::Error::new(error.kind(), unreadable(&path.to_string_lossy(), &error)))
+}
+
+/// What a file of edskit itself is, and which command takes it; `None` for other files.
+pub(crate) fn own_file(bytes: &[u8]) -> Option<String> {
+    let own = OwnFile::of(std::str::from_utf8(bytes).ok()?)?;
+    Some(format!("this is {}: {}", own.name(), own.command()))
+}
+
+/// The same where one kind of these files is wanted, and the file is another one.
+pub(crate) fn another_own_file(bytes: &[u8], wanted: OwnFile) -> Option<String> {
+    let is_wanted = std::str::from_utf8(bytes).ok().and_then(OwnFile::of) == Some(wanted);
+    own_file(bytes).filter(|_| !is_wanted)
 }
 
 /// Why a file could not be read.

@@ -85,7 +85,10 @@ fn format_input(input: &Input, arguments: &FmtArguments, streams: &mut Streams) 
     if Nature::of(before) != Nature::Text
         || sheet.sections().all(|section| section.kind() == SectionKind::Unknown)
     {
-        return Err(format!("{name}: left alone, this is no CANopen file; `edskit lint` says what it is"));
+        let reason = files::own_file(before);
+        let reason =
+            reason.unwrap_or_else(|| "this is no CANopen file; `edskit lint` says what it is".to_owned());
+        return Err(format!("{name}: left alone, {reason}"));
     }
     let after = try_format(&sheet).map_err(|reason| format!("{name}{}", left_alone(reason)))?;
     let changed = after != before;

@@ -3,11 +3,14 @@
 use crate::cli::GenerateArguments;
 use crate::device_file::{DeviceFile, print_problems};
 use crate::printable;
+use crate::settings::{Finder, SettingsError};
 use crate::{Exit, Streams};
 use edskit_codegen::{generate, module_name, write_if_changed};
 use edskit_lint::{Linter, RuleSet};
 use std::ffi::OsString;
 use std::io;
+use std::path::Path;
+use std::sync::Arc;
 
 pub(crate) fn run(arguments: &GenerateArguments, streams: &mut Streams) -> io::Result<Exit> {
     let DeviceFile { eds, side_file, mut naming } =
@@ -22,7 +25,13 @@ pub(crate) fn run(arguments: &GenerateArguments, streams: &mut Streams) -> io::R
         naming.module = module_name(name);
     }
     naming.runtime.clone_from(&arguments.runtime);
-    let linter = Linter::new(RuleSet::default());
+    let linter = match linter(&arguments.file) {
+        Ok(linter) => linter,
+        Err(error) => {
+            streams.complain(format_args!("{error}"));
+            return Ok(Exit::Failed);
+        }
+    };
     let generated = match generate(&eds, side_file.as_deref(), &naming, &linter) {
         Ok(generated) => generated,
         Err(problems) => {
@@ -49,6 +58,19 @@ pub(crate) fn run(arguments: &GenerateArguments, streams: &mut Streams) -> io::R
             Ok(Exit::Failed)
         }
     }
+}
+
+/// The rules that `edskit.toml` gives the file, as `edskit lint` finds it.
+fn linter(file: &Path) -> Result<Linter, SettingsError> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let settings = Finder::default().find(folder)?;
+    Ok(match settings {
+        Some(settings) => {
+            Linter::new(settings.rules_for(file)).with_profiles(Arc::clone(settings.profiles()))
+        }
+        None => Linter::new(RuleSet::default()),
+    })
 }
 
 /// `Device.rs`, after the given name or the EDS.

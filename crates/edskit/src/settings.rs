@@ -1,8 +1,10 @@
 //! `edskit.toml`: which rules run where. It is found upwards from each file.
 
+use crate::files::another_own_file;
 use crate::paths;
 use crate::profiles::{self, Unusable};
 use edskit_lint::{Profile, RuleSet, Severity, UnknownRule};
+use edskit_model::own_file::OwnFile;
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
@@ -79,6 +81,9 @@ impl Settings {
     pub(crate) fn read(path: &Path) -> Result<Self, SettingsError> {
         let plain = |message: String| SettingsError { path: path.to_path_buf(), place: None, message };
         let text = fs::read_to_string(path).map_err(|error| plain(error.to_string()))?;
+        if let Some(reason) = another_own_file(text.as_bytes(), OwnFile::Settings) {
+            return Err(plain(reason));
+        }
         let at = |span: Range<usize>, message: String| SettingsError {
             path: path.to_path_buf(),
             place: Some(line_and_column(&text, span.start)),
@@ -266,7 +271,7 @@ impl SettingsError {
         span: Range<usize>,
     ) -> SettingsError {
         match error {
-            Unusable::Unreadable(..) => at(span, error.to_string()),
+            Unusable::Unreadable(..) | Unusable::Another(..) => at(span, error.to_string()),
             Unusable::Wrong(path, error) => {
                 Self { path, place: Some((error.line, error.column)), message: error.message }
             }

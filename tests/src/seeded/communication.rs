@@ -116,6 +116,14 @@ fn error_history() -> Vec<Defect> {
             "ro",
         ),
         value("COM004", "errors that can be written", "AccessType", is_past_error, "rw"),
+        value(
+            "COM021",
+            "a number of errors before any has happened",
+            "DefaultValue",
+            |section| section.name == "1003sub0",
+            "8",
+        ),
+        value("COM021", "an error before any has happened", "DefaultValue", is_past_error, "0x00008130"),
     ]
 }
 

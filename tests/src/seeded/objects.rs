@@ -17,14 +17,19 @@ fn attributes() -> Vec<Defect> {
         missing("OBJ001", "no ParameterName", "ParameterName", is_description),
         value("OBJ001", "an empty ParameterName", "ParameterName", is_description, ""),
         value("OBJ002", "a reserved object code", "ObjectType", is_description, "0x3"),
-        value("OBJ002", "an object code in words", "ObjectType", is_description, "VAR"),
+        value_of("OBJ002", "an object code in words", "ObjectType", is_description, |section, _| {
+            let words = [(2, "DOMAIN"), (7, "VAR"), (8, "ARRAY"), (9, "RECORD")];
+            words.into_iter().find(|(code, _)| section.is_code(*code)).map(|(_, word)| word.to_owned())
+        }),
         value("OBJ002", "a sub-object that is a RECORD", "ObjectType", Section::is_sub_object, "0x9"),
         missing("OBJ003", "no DataType", "DataType", is_described_value),
         value("OBJ003", "an empty DataType", "DataType", is_described_value, ""),
         missing("OBJ004", "no AccessType", "AccessType", is_described_value),
         missing("OBJ004", "no AccessType of compact sub-objects", "AccessType", is_compact),
         missing("OBJ003", "no DataType of compact sub-objects", "DataType", is_compact),
-        value("OBJ005", "a misspelt access type", "AccessType", is_described_value, "read"),
+        value_of("OBJ005", "a misspelt access type", "AccessType", is_described_value, |_, old| {
+            (old == "ro").then(|| "read".to_owned())
+        }),
         value("OBJ005", "an access type in two words", "AccessType", is_described_value, "r/w"),
         value_of("OBJ005", "an access type in capitals", "AccessType", is_described_value, |_, old| {
             Some(old.to_ascii_uppercase())

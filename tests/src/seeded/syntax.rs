@@ -241,6 +241,12 @@ fn doubles() -> Vec<Defect> {
         header("SYN016", "an index with a zero too many", Section::is_object, |section| {
             format!("[0{}]", section.name)
         }),
+        header("SYN016", "an index with the `h` of the manuals", Section::is_object, |section| {
+            format!("[{}h]", section.name)
+        }),
+        header("SYN016", "a sub-index with a blank before `sub`", is_below_16, |section| {
+            format!("[{}]", section.name.replacen("sub", " sub", 1))
+        }),
     ]
 }
 

@@ -10,15 +10,29 @@ pub(super) fn defects() -> Vec<Defect> {
 fn numbers() -> Vec<Defect> {
     let any = |_: &Section| true;
     vec![
-        value("SYN017", "the name of a data type for its number", "DataType", any, "UNSIGNED8"),
+        value_of("SYN017", "the name of a data type for its number", "DataType", any, |section, _| {
+            let names =
+                [(2, "INTEGER8"), (3, "INTEGER16"), (5, "UNSIGNED8"), (6, "UNSIGNED16"), (7, "UNSIGNED32")];
+            names.into_iter().find(|(index, _)| section.is_type(*index)).map(|(_, name)| name.to_owned())
+        }),
         value("SYN017", "a word for SubNumber", "SubNumber", any, "two"),
-        value("SYN017", "a doubled `0x`", "DefaultValue", is_integer, "0x0x00001B59"),
-        value("SYN017", "a hexadecimal number in the style of `1Fh`", "DefaultValue", is_integer, "1Fh"),
+        value_of("SYN017", "a doubled `0x`", "DefaultValue", is_integer, |_, old| {
+            old.starts_with("0x").then(|| format!("0x{old}"))
+        }),
+        value_of(
+            "SYN017",
+            "a hexadecimal number in the style of `1Fh`",
+            "DefaultValue",
+            is_integer,
+            |_, old| Some(format!("{}h", old.strip_prefix("0x")?)),
+        ),
         value("SYN017", "a letter beyond F in a hexadecimal number", "DefaultValue", is_integer, "0x1G"),
         value("SYN017", "a decimal comma at an integer", "DefaultValue", is_integer, "1,5"),
-        value("SYN017", "the letter O for a zero", "DefaultValue", is_integer, "O"),
-        value("SYN017", "a thousands separator", "DefaultValue", is_integer, "1 000"),
-        value("SYN017", "the digit 8 in an octal number", "DefaultValue", is_integer, "08"),
+        value_of("SYN017", "the letter O for a zero", "DefaultValue", is_integer, |_, old| {
+            (old == "0").then(|| "O".to_owned())
+        }),
+        value("SYN017", "a thousands separator", "DefaultValue", is_long_of_manufacturer, "1 000"),
+        value("SYN017", "the digit 8 in an octal number", "DefaultValue", is_long_of_manufacturer, "08"),
         value("SYN017", "a value configured as a word", "ParameterValue", is_integer, "on"),
         value("SYN017", "a unit behind a limit", "HighLimit", is_integer, "100 ms"),
         value("SYN017", "a word for a lower limit", "LowLimit", is_integer, "none"),
@@ -44,6 +58,12 @@ fn numbers() -> Vec<Defect> {
             (decimal && old.bytes().all(|byte| (b'0'..b'8').contains(&byte))).then(|| format!("0{old}"))
         }),
     ]
+}
+
+/// An integer of at least 16 bits whose value nothing else prescribes.
+fn is_long_of_manufacturer(section: &Section) -> bool {
+    let has_type = [3, 4, 6, 7].into_iter().any(|data_type| section.is_type(data_type));
+    is_integer(section) && has_type && section.is_of_manufacturer() && section.sub_index() != Some(0)
 }
 
 fn texts() -> Vec<Defect> {

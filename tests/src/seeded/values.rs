@@ -31,6 +31,23 @@ fn ranges() -> Vec<Defect> {
         value("VAL002", "256 in an UNSIGNED8", "DefaultValue", is_unsigned8, "256"),
         value("VAL002", "0x100 in an UNSIGNED8", "DefaultValue", is_unsigned8, "0x100"),
         value("VAL002", "-1 in an UNSIGNED8", "DefaultValue", is_unsigned8, "-1"),
+        value(
+            "VAL002",
+            "256 in an UNSIGNED8, with a comment behind it",
+            "DefaultValue",
+            is_unsigned8,
+            "256 ; too large",
+        )
+        .with_consequence("SYN012", "CiA 306 knows no comment behind a value"),
+        Defect::new("VAL002", "256 in an UNSIGNED8, with a comment behind the type", |base| {
+            let sections = base.sections_where(is_unsigned8).into_iter();
+            let both = sections.filter_map(|section| {
+                let mutant = Mutant::of(base).set(section.entry("DefaultValue")?, "256");
+                Some(mutant.set_too(section.entry("DataType")?, "0x0005 ; UNSIGNED8"))
+            });
+            both.collect()
+        })
+        .with_consequence("SYN012", "CiA 306 knows no comment behind a value"),
         value("VAL002", "65536 in an UNSIGNED16", "DefaultValue", is_unsigned16, "65536"),
         value("VAL002", "nine digits in an UNSIGNED32", "DefaultValue", is_unsigned32, "0x100000000"),
         value("VAL002", "128 in an INTEGER8", "DefaultValue", is_integer8, "128"),
@@ -112,6 +129,18 @@ fn limits() -> Vec<Defect> {
             (below >= section.number("LowLimit")?).then(|| below.to_string())
         })
         .by_label(),
+        Defect::new("VAL004", "a default above the upper limit of its range type", |base| {
+            let is_ranged = |section: &Section| {
+                is_own_value(section) && section.is_type(6) && section.value("HighLimit").is_empty()
+            };
+            let sections = base.sections_where(is_ranged);
+            let ranged = sections.into_iter().filter_map(|section| {
+                let mutant = Mutant::of(base).set(section.entry("DefaultValue")?, "200");
+                let mutant = mutant.set_too(section.entry("DataType")?, "0x00A0");
+                Some(RANGE.iter().fold(mutant, |mutant, line| mutant.insert_too(base.lines.len(), *line)))
+            });
+            ranged.collect()
+        }),
         added("VAL005", "a limit of a text", |section| section.is_type(9), "LowLimit=0"),
         added("VAL005", "a limit of an octet string", |section| section.is_type(0xA), "HighLimit=99"),
         added("VAL005", "a limit of a DOMAIN", |section| section.is_type(0xF), "HighLimit=99"),
@@ -175,10 +204,55 @@ fn texts() -> Vec<Defect> {
         value("VAL013", "a decimal comma at a REAL32", "DefaultValue", |section| section.is_type(8), "1,5"),
         value("VAL013", "a unit behind a REAL64", "DefaultValue", |section| section.is_type(0x11), "0.02 s"),
         value("VAL013", "a limit of a REAL32 in words", "HighLimit", |section| section.is_type(8), "maximum"),
+        added(
+            "VAL013",
+            "more days than a time of day has",
+            |section| section.is_type(0xC),
+            "DefaultValue=65536 43200000",
+        ),
+        added(
+            "VAL013",
+            "more milliseconds than a time difference has",
+            |section| section.is_type(0xD),
+            "DefaultValue=1 268435456",
+        ),
         added("VAL013", "a time of day in words", |section| section.is_type(0xC), "DefaultValue=noon"),
         added("VAL013", "a time difference in words", |section| section.is_type(0xD), "DefaultValue=a day"),
     ]
 }
+
+/// The sections of a range type, as CANFestival's editor writes them: UNSIGNED16 from 0 to 100.
+const RANGE: [&str; 29] = [
+    "",
+    "[A0]",
+    "ParameterName=Range",
+    "ObjectType=0x6",
+    "SubNumber=4",
+    "[A0sub0]",
+    "ParameterName=Number of entries",
+    "ObjectType=0x7",
+    "DataType=0x0005",
+    "AccessType=ro",
+    "DefaultValue=3",
+    "[A0sub1]",
+    "ParameterName=Type",
+    "ObjectType=0x7",
+    "DataType=0x0005",
+    "AccessType=ro",
+    "DefaultValue=0x6",
+    "[A0sub2]",
+    "ParameterName=Minimum value",
+    "ObjectType=0x7",
+    "DataType=0x0006",
+    "AccessType=ro",
+    "DefaultValue=0",
+    "[A0sub3]",
+    "ParameterName=Maximum value",
+    "ObjectType=0x7",
+    "DataType=0x0006",
+    "AccessType=ro",
+    "DefaultValue=100",
+];
 
 /// A single value.
 fn is_value(section: &Section) -> bool {

@@ -1,6 +1,8 @@
 use super::*;
 
-const EDS: &str = "[1017]\nParameterName=Heartbeat\nObjectType=7\nDataType=6\nAccessType=rw\n";
+/// An object of a configured device, to which nothing is added.
+const EDS: &str =
+    "[1017]\nParameterName=Heartbeat\nObjectType=7\nDataType=6\nAccessType=rw\n[DeviceComissioning]\n";
 
 /// A folder of one test, gone when the test is.
 struct Folder(PathBuf);
@@ -73,10 +75,17 @@ fn settings_name_what_is_written() {
 #[test]
 fn findings_are_told_with_their_place() {
     let folder = Folder::new("findings");
-    let eds = folder.write("a.eds", EDS);
+    let eds = folder.write("a.eds", &EDS.replace("rw\n", "rw\nDefaultValue=70000\n"));
     let errors = folder.run(&Config::new(), &eds);
-    assert!(errors.contains("cargo::error=<folder>/a.eds:1:1: DEV001 "), "{errors}");
-    assert!(!folder.0.join("out/a.rs").exists());
+    assert!(errors.contains("cargo::error=<folder>/a.eds:6:14: VAL002 "), "{errors}");
+    assert!(!errors.contains("DEV001") && !folder.0.join("out/a.rs").exists(), "{errors}");
+    folder.write("a.eds", EDS);
+    let told = folder.run(&Config::new(), &eds);
+    assert!(
+        told.contains("cargo::warning=<folder>/a.eds:1:1: DEV001 ") && !told.contains("cargo::error"),
+        "{told}"
+    );
+    assert!(folder.0.join("out/a.rs").exists());
     let mut rules = RuleSet::none();
     rules.select("STY").unwrap();
     folder.write("a.eds", &EDS.replace("rw\n", "rw\nLowLimit=$NODEID\n"));
@@ -118,4 +127,76 @@ fn an_unchanged_file_is_not_written_again() {
     assert_eq!(fs::metadata(&path).unwrap().modified().unwrap(), before);
     assert!(write_if_changed(&path, "other").unwrap());
     assert_eq!(fs::read_to_string(&path).unwrap(), "other");
+}
+
+/// An object of a configured device with a value that does not fit.
+const TOO_LARGE: &str = "[2000]\nParameterName=x\nObjectType=7\nDataType=5\nAccessType=rw\nDefaultValue=300\n[DeviceComissioning]\n";
+
+#[test]
+fn what_is_allowed_does_not_stop_the_build() {
+    let folder = Folder::new("allowed");
+    let eds = folder.write("a.eds", TOO_LARGE);
+    let is_built = |config: &Config| {
+        let told = folder.run(config, &eds);
+        assert_eq!(told.contains("cargo::error"), !folder.0.join("out/a.rs").exists(), "{told}");
+        let is_built = fs::remove_file(folder.0.join("out/a.rs")).is_ok();
+        (is_built, told)
+    };
+    let (built, told) = is_built(&Config::new());
+    assert!(!built && told.contains("cargo::error=<folder>/a.eds:6:14: VAL002 "), "{told}");
+    let (built, told) = is_built(&Config::new().allow("VAL002"));
+    assert!(built && told.contains("cargo::warning=<folder>/a.eds:6:14: GEN `300` is left out"), "{told}");
+    let (built, told) = is_built(&Config::new().allow("VAL999"));
+    assert!(!built && told.contains("cargo::error=Config::allow: there is no rule `VAL999`"), "{told}");
+    folder.write("a.eds", &TOO_LARGE.replace("[2000]", ";edskit: allow(VAL002) known\n[2000]"));
+    assert!(is_built(&Config::new()).0);
+    folder.write("a.eds", TOO_LARGE);
+    folder.write("edskit.toml", "[severity]\nVAL002 = 'warning'\n");
+    let (built, told) = is_built(&Config::new());
+    assert!(built && told.contains("cargo::rerun-if-changed=<folder>/edskit.toml\n"), "{told}");
+    assert!(!is_built(&Config::new().rules(RuleSet::default())).0, "rules of the build script come first");
+    folder.write("edskit.toml", "ignore = ['VAL002']\n[severity]\nOBJ003 = 'error'\n");
+    assert!(is_built(&Config::new()).0);
+    folder.write("edskit.toml", "ignore = 5\n");
+    let (built, told) = is_built(&Config::new());
+    assert!(!built && told.contains("cargo::error=<folder>/edskit.toml:1: invalid type"), "{told}");
+}
+
+#[test]
+fn whoever_wants_an_error_gets_one() {
+    let folder = Folder::new("wanted");
+    let text = TOO_LARGE.replace("300", "3");
+    let eds = folder.write("a.eds", &text.replace("ParameterName=x", "ParameterName=\u{e4}"));
+    assert!(!folder.run(&Config::new(), &eds).contains("cargo::error"));
+    folder.write("edskit.toml", "[[override]]\nfiles = ['*.eds']\nseverity = { SYN001 = 'error' }\n");
+    assert!(folder.run(&Config::new(), &eds).contains("cargo::error=<folder>/a.eds:2:15: SYN001 "));
+}
+
+#[test]
+fn a_mistake_that_does_not_hinder_changes_no_code() {
+    let folder = Folder::new("equal");
+    let right = "[2000]\nParameterName=x\nObjectType=8\nSubNumber=3\n\
+        [2000sub0]\nParameterName=n\nObjectType=7\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+        [2000sub1]\nParameterName=a\nObjectType=7\nDataType=5\nAccessType=rw\nDefaultValue=7\n\
+        [2000sub2]\nParameterName=b\nObjectType=7\nDataType=6\nAccessType=rw\nDefaultValue=8\n[DeviceComissioning]\n";
+    let code = |text: &str| {
+        let eds = folder.write("a.eds", text);
+        let told = folder.run(&Config::new(), &eds);
+        assert!(told.contains("cargo::warning") && !told.contains("cargo::error"), "{told}");
+        fs::read_to_string(folder.0.join("out/a.rs")).unwrap()
+    };
+    let of_right = code(right);
+    for (is, becomes) in [
+        ("ObjectType=8", "ObjectType=0x8 ; ARRAY"),
+        ("SubNumber=3", "SubNumber=9"),
+        ("DataType=6", "DataType=0x0x6"),
+        ("DataType=6", "DataType=UNSIGNED16"),
+        ("AccessType=rw", "AccessType=R/W"),
+        ("DefaultValue=8", "DefaultValue=8; eight"),
+        ("DefaultValue=7", "DefaultValue=07h"),
+        ("[2000sub2]", "[2000hsub02]"),
+        ("[2000sub0]", "[2000 sub0]"),
+    ] {
+        assert_eq!(code(&right.replace(is, becomes)), of_right, "{becomes}");
+    }
 }

@@ -2,18 +2,17 @@
 
 mod extra;
 mod implicit;
+mod standard;
 
 use super::value::Bytes;
 use super::{MOST_ENTRIES, Source, limits};
 use crate::{InputFile, Problem, SideFile};
 use edskit_lint::Severity;
-use edskit_model::{Datasheet, Description, DictionaryEntry, Object, SectionKind, Span};
+use edskit_model::{Datasheet, Description, DictionaryEntry, Object, Span};
 use edskit_types::{AccessType, DataType, DataTypeKind, Index, ObjectCode, SubIndex};
 
 /// The first index behind the data types, which are described but are no entries.
 const FIRST: Index = Index(0x1000);
-/// How many DEFTYPEs are followed from one to the next.
-const MOST_TYPES: usize = 8;
 
 /// One entry of the dictionary to be.
 #[derive(Clone, Debug)]
@@ -47,6 +46,10 @@ pub(super) struct Gathered {
     /// Not more than one beyond what a dictionary can have.
     pub(super) items: Vec<Item>,
     pub(super) notes: Vec<Problem>,
+    /// What the file says of an entry, and the dictionary cannot have.
+    pub(super) lost: Vec<Problem>,
+    /// What the dictionary has, and the file does not say.
+    pub(super) assumptions: Vec<Problem>,
     pub(super) errors: Vec<Problem>,
 }
 
@@ -60,12 +63,13 @@ pub(super) fn items(sheet: &Datasheet, side_file: &SideFile) -> Gathered {
             if gathered.items.len() > MOST_ENTRIES {
                 return gathered;
             }
-            let item = described(sheet, object, entry, side_file, &mut gathered.notes);
+            let item = described(sheet, object, entry, side_file, &mut gathered);
             gathered.items.push(item);
         }
     }
     implicit::add(sheet, side_file, &mut gathered.items);
     gathered.items.sort_by_key(Item::key);
+    standard::complete(sheet, side_file, &mut gathered);
     extra::add(side_file, &mut gathered);
     gathered
 }
@@ -76,44 +80,53 @@ fn described(
     object: Object<'_>,
     entry: DictionaryEntry<'_>,
     side_file: &SideFile,
-    notes: &mut Vec<Problem>,
+    gathered: &mut Gathered,
 ) -> Item {
     let description = entry.description().unwrap_or(object.description());
-    let mut note = |span, message| {
-        notes.push(Problem::in_eds(sheet.document(), Severity::Warning, span, message));
-    };
+    let Gathered { notes, lost, .. } = gathered;
+    let problem = |span, message| Problem::in_eds(sheet.document(), Severity::Warning, span, message);
+    let mut note = |span, message| notes.push(problem(span, message));
+    let mut lost = |span, message| lost.push(problem(span, message));
     let is_compact_count = entry.description().is_none() && entry.sub_index == SubIndex(0);
-    let resolved = if is_compact_count { Ok(DataType::Unsigned8) } else { data_type(sheet, description) };
+    let resolved = if is_compact_count { Ok(DataType::Unsigned8) } else { data_type(description) };
     let data_type = resolved.unwrap_or_else(|(span, reason)| {
         let name = description.section().name();
-        note(span, format!("[{name}] becomes a DOMAIN, which only the application knows: {reason}"));
+        lost(span, format!("[{name}] becomes a DOMAIN, which only the application knows: {reason}"));
         DataType::Domain
     });
     let access = entry.access().unwrap_or_else(|| {
         let span = description.access_type().map_or(description.name_span(), |field| field.span());
-        note(span, format!("[{}] has no access type that can be read, and becomes ro", description.name()));
+        lost(span, format!("[{}] has no access type that can be read, and becomes ro", description.name()));
         AccessType::Ro
     });
-    let value = entry.value_field().map(|field| field.entry).filter(|_| data_type != DataType::Domain);
-    let default = value.and_then(|value| match Bytes::of_entry(value, data_type) {
-        Ok(bytes) => Some(bytes),
-        Err(reason) => {
-            let text = value.text();
-            note(value.value_span(), format!("`{}` is left out: {reason}", shortened(&text)));
-            None
+    let value = entry.value_field().map(|field| field.entry);
+    let default = value.and_then(|value| {
+        let bytes = match data_type {
+            DataType::Domain => Err("the application has the data of a DOMAIN".to_owned()),
+            _ => Bytes::of_entry(value, data_type),
+        };
+        let reason = match bytes {
+            Ok(bytes) => return Some(bytes),
+            Err(reason) => reason,
+        };
+        let message = format!("`{}` is left out: {reason}", shortened(&value.text()));
+        if data_type == DataType::Domain {
+            note(value.value_span(), message)
+        } else {
+            lost(value.value_span(), message)
         }
+        None
     });
-    let limits = match entry.description().filter(|_| access.is_writable()) {
-        Some(description) => {
-            let [low, high] = [description.low_limit(), description.high_limit()];
-            let read = limits::read(data_type, low.map(|low| low.entry), high.map(|high| high.entry));
-            for formula in read.formulas {
-                let reason = "a limit that depends on the node-ID is left out: the device has to check it";
-                note(formula.value_span(), reason.to_owned());
-            }
-            read.limits
+    let limits = if access.is_writable() {
+        let [low, high] = entry.limits().map(|limit| limit.map(|limit| limit.entry));
+        let read = limits::read(data_type, low, high);
+        for formula in read.formulas {
+            let reason = "a limit that depends on the node-ID is left out: the device has to check it";
+            note(formula.value_span(), reason.to_owned());
         }
-        None => None,
+        read.limits
+    } else {
+        None
     };
     let has_subs = object.compact_count() > 0 || object.sub_objects().len() > 0;
     let object_name = object.parameter_name().filter(|_| has_subs).map(|name| name.text().into_owned());
@@ -143,28 +156,15 @@ fn described(
     }
 }
 
-/// The data type of a description, that of a DEFTYPE followed to one of CiA 301; else why there is none.
-fn data_type(sheet: &Datasheet, described: Description<'_>) -> Result<DataType, (Span, String)> {
+/// The data type of a description; else why there is none.
+fn data_type(described: Description<'_>) -> Result<DataType, (Span, String)> {
     if let Some(data_type) = described.standard_type().filter(has_values) {
         return Ok(data_type);
     }
-    let Some(field) = described.data_type() else {
-        return Err((described.name_span(), "it has no data type".to_owned()));
-    };
-    let reason = || (field.span(), format!("`{}` is no data type of values", shortened(&field.text())));
-    let mut index = field.known().ok_or_else(reason)?;
-    for _ in 0..MOST_TYPES {
-        let definition = sheet.section(SectionKind::Object(Index(index)));
-        let definition = definition.and_then(|section| section.description()).ok_or_else(reason)?;
-        if definition.object_code() != Some(ObjectCode::DefType) {
-            break;
-        }
-        if let Some(data_type) = definition.standard_type().filter(has_values) {
-            return Ok(data_type);
-        }
-        index = definition.data_type().and_then(|field| field.known()).ok_or_else(reason)?;
-    }
-    Err(reason())
+    Err(match described.data_type() {
+        Some(field) => (field.span(), format!("`{}` is no data type of values", shortened(&field.text()))),
+        None => (described.name_span(), "it has no data type".to_owned()),
+    })
 }
 
 fn has_values(data_type: &DataType) -> bool {

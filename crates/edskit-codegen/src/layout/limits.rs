@@ -11,7 +11,7 @@ pub(super) struct Read<'a> {
     pub(super) formulas: Vec<Entry<'a>>,
 }
 
-/// The limits of a value of this type; what cannot be read counts as no limit.
+/// The limits of a value of this type; what cannot be read counts as no limit, which the linter reports.
 pub(super) fn read<'a>(data_type: DataType, low: Option<Entry<'a>>, high: Option<Entry<'a>>) -> Read<'a> {
     let value = |entry: Option<Entry<'a>>| entry.and_then(|entry| entry.value(Some(data_type)).known());
     let is_formula = |entry: &Entry<'a>| matches!(value(Some(*entry)), Some(Value::Formula(_)));

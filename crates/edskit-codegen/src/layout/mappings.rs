@@ -7,10 +7,12 @@ use core::fmt;
 use edskit_lint::Severity;
 use edskit_model::{Document, Position as TextPosition, Span};
 use edskit_runtime::Flags;
-use edskit_types::{DataType, Index, MappingEntry, PdoDirection, SubIndex};
+use edskit_types::{CobId, DataType, Index, MappingEntry, PdoDirection, SubIndex};
 
 /// The most entries of a mapping; a greater number stands for a multiplexed PDO.
 const MOST_ENTRIES: u8 = 64;
+/// How far a mapping parameter lies behind the communication parameter of its PDO.
+const DISTANCE: u16 = 0x200;
 /// The most bits of a PDO.
 const MOST_BITS: u32 = 64;
 
@@ -21,6 +23,9 @@ pub struct Mapping {
     pub direction: PdoDirection,
     /// From 1.
     pub number: u16,
+    /// Whether the PDO exists at power-on: bit 31 of its COB-ID does not say otherwise. One that does not exist carries nothing
+    /// as long as nobody switches it on.
+    pub is_valid: bool,
     /// Where the number of entries stands.
     pub place: Place,
     /// The mapped entries in their order; those that are 0 are left out.
@@ -49,6 +54,16 @@ pub struct Place {
     pub position: TextPosition,
 }
 
+impl Place {
+    /// Where the value of an entry stands.
+    pub(super) fn of(item: &Item, document: &Document) -> Self {
+        let span = item.value_span;
+        let is_eds = item.source.file == InputFile::Eds;
+        let position = if is_eds { document.position(span.start) } else { item.source.position };
+        Self { file: item.source.file, span, position }
+    }
+}
+
 impl Mapping {
     /// The bits of all entries.
     #[must_use]
@@ -69,14 +84,15 @@ impl fmt::Display for Mapping {
 }
 
 impl Layout {
-    /// What is wrong with the mappings of power-on. The generated code checks the same when it is compiled.
+    /// What is wrong with the mappings of power-on: an error where the PDO exists, else a warning. The generated code checks
+    /// those of existing PDOs once more when it is compiled.
     #[must_use]
     pub fn mapping_problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         for mapping in &self.mappings {
             let mut report = |place: &Place, message: String| {
                 problems.push(Problem {
-                    severity: Severity::Error,
+                    severity: if mapping.is_valid { Severity::Error } else { Severity::Warning },
                     code: "GEN",
                     file: place.file,
                     span: place.span,
@@ -153,12 +169,7 @@ pub(super) fn read(items: &[Item], document: &Document) -> Vec<Mapping> {
     let mut mappings = Vec::new();
     for object in items.chunk_by(|a, b| a.index == b.index) {
         let Some((direction, number)) = pdo_of(object[0].index) else { continue };
-        let place = |item: &Item| {
-            let span = item.value_span;
-            let is_eds = item.source.file == InputFile::Eds;
-            let position = if is_eds { document.position(span.start) } else { item.source.position };
-            Place { file: item.source.file, span, position }
-        };
+        let place = |item: &Item| Place::of(item, document);
         let count = &object[0];
         let Some(mapped) = count.default.as_ref().filter(|_| count.sub_index == SubIndex(0)) else {
             continue;
@@ -175,7 +186,17 @@ pub(super) fn read(items: &[Item], document: &Document) -> Vec<Mapping> {
         });
         // An entry of 0 names nothing: sub-index 00h may stand for the room for entries, which are mapped later.
         let mapped = mapped.filter(|mapped| mapped.entry != MappingEntry(0));
-        mappings.push(Mapping { direction, number, place: place(count), entries: mapped.collect() });
+        let cob_id = Index(object[0].index.0 - DISTANCE);
+        let cob_id =
+            items.binary_search_by_key(&(cob_id, SubIndex(1)), Item::key).ok().map(|found| &items[found]);
+        let is_valid = cob_id.is_none_or(|cob_id| CobId(value(cob_id)).is_valid());
+        mappings.push(Mapping {
+            direction,
+            number,
+            is_valid,
+            place: place(count),
+            entries: mapped.collect(),
+        });
     }
     mappings
 }

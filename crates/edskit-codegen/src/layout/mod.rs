@@ -1,23 +1,27 @@
 //! From a datasheet to the plain data that a dictionary consists of.
 
+mod assumptions;
+mod cob_ids;
 mod counts;
 mod gather;
 mod groups;
 mod image;
 mod limits;
 mod mappings;
+mod settings;
 mod value;
 
 #[cfg(test)]
 mod tests;
 
+pub use cob_ids::CobIdParameter;
 pub use counts::Counts;
 pub use mappings::{Mapped, Mapping, Place};
 
 use crate::{InputFile, Problem, SideFile};
 use edskit_lint::Severity;
 use edskit_model::{Datasheet, KeyName, Position as TextPosition, SectionKind, Span};
-use edskit_runtime::{Entry, Flags, Limits, Position, Table};
+use edskit_runtime::{Entry, Flags, Limits, Position, Settings, Table};
 use edskit_types::{AccessType, DataType};
 use gather::Item;
 use image::Images;
@@ -35,8 +39,9 @@ pub const MOST_BYTES: usize = u16::MAX as usize;
 /// use edskit_types::{Index, SubIndex};
 /// let text = b"[1017]\nParameterName=Heartbeat\nDataType=6\nAccessType=rw\nDefaultValue=1000\n";
 /// let layout = lay_out(&Datasheet::parse(text), &SideFile::default()).unwrap();
-/// assert_eq!(layout.defaults, 1000_u16.to_le_bytes());
-/// assert!(layout.table().find(Index(0x1017), SubIndex(0)).is_ok());
+/// let heartbeat = layout.table().find(Index(0x1017), SubIndex(0)).unwrap();
+/// assert_eq!(layout.default_of(&layout.entries[usize::from(heartbeat.0)]), 1000_u16.to_le_bytes());
+/// assert_eq!(layout.assumptions.len(), 3, "1000h, 1001h and 1018h are missing");
 /// ```
 #[derive(Clone, Debug)]
 pub struct Layout {
@@ -56,11 +61,19 @@ pub struct Layout {
     pub fingerprint: u32,
     /// How much working memory a node needs.
     pub counts: Counts,
+    /// What `[DeviceInfo]` says to a node, with a node-ID of 1.
+    pub settings: Settings,
     /// The mappings of power-on, in ascending order.
     pub mappings: Vec<Mapping>,
     /// The name of the product, where the file has one.
     pub product: Option<String>,
-    /// What is worth knowing about the dictionary, but does not stand against it.
+    /// The COB-IDs of power-on, in ascending order of their entries.
+    pub cob_ids: Vec<CobIdParameter>,
+    /// What was read otherwise than it is written, and what the file leaves out and CiA 301 gives.
+    pub assumptions: Vec<Problem>,
+    /// What the file says of an entry, and the dictionary cannot have: types, accesses and values that nobody can read.
+    pub lost: Vec<Problem>,
+    /// What else is worth knowing about the dictionary, but does not stand against it.
     pub notes: Vec<Problem>,
 }
 
@@ -116,17 +129,23 @@ impl Layout {
 
 /// Lays out the object dictionary of a datasheet.
 ///
-/// What the file says wrongly becomes a note and counts as not said: it is the linter's task to refuse such a file.
+/// What is written wrongly is read as it was meant, where that is certain; what nobody can read counts as not said
+/// ([`Layout::lost`]). What the file of a device leaves out in 1000h to 1FFFh has the default of CiA 301, and the mandatory
+/// objects that it lacks are added ([`Layout::assumptions`]); a DCF says what is configured, and gets neither.
 ///
 /// # Errors
 /// What makes a dictionary impossible: more entries or bytes than can be addressed, and a side-file that contradicts the
 /// EDS.
 pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Problem>> {
-    let gather::Gathered { items, mut notes, mut errors } = gather::items(sheet, side_file);
+    let gather::Gathered { items, mut notes, mut lost, mut assumptions, mut errors } =
+        gather::items(sheet, side_file);
     notes.extend(unused(&items, side_file));
-    // In the order of the files, and once where many compact sub-objects are described together.
-    notes.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
-    notes.dedup();
+    assumptions.extend(assumptions::misspelt(sheet));
+    for problems in [&mut notes, &mut lost, &mut assumptions] {
+        // In the order of the files, and once where many compact sub-objects are described together.
+        problems.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
+        problems.dedup();
+    }
     if items.len() > MOST_ENTRIES {
         let message = format!("this is one entry more than the {MOST_ENTRIES} that a dictionary can have");
         errors.extend(items.last().map(|item| problem_at(sheet, side_file, &item.source, message)));
@@ -158,16 +177,23 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
         return Err(errors);
     }
     let Images { constants, defaults, .. } = images;
+    let mappings = mappings::read(&items, sheet.document());
+    let settings = settings::read(sheet, &entries, &mappings, &mut notes);
+    notes.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
     Ok(Layout {
         counts: Counts::of(&entries),
+        settings,
         fingerprint: fingerprint(&entries),
         entries,
-        mappings: mappings::read(&items, sheet.document()),
+        mappings,
+        cob_ids: cob_ids::read(&items, sheet.document()),
         constants,
         defaults,
         limits,
         dummies: dummies(sheet),
         product: product(sheet),
+        assumptions,
+        lost,
         notes,
         sources: items.into_iter().map(|item| item.source).collect(),
     })
@@ -203,11 +229,13 @@ fn dummies(sheet: &Datasheet) -> u32 {
     allowed.fold(0, |bits, entry| bits | 1_u32.checked_shl(entry.key().number.into()).unwrap_or(0))
 }
 
-/// FNV-1a over what stored values depend on: the place, type and size of each entry. Defaults do not count, so that
+/// FNV-1a over what stored values depend on: the place, type, size and group of each entry. Defaults do not count, so that
 /// stored values outlive a change of them.
 fn fingerprint(entries: &[Entry]) -> u32 {
     let bytes = entries.iter().flat_map(|entry| {
-        let numbers = [entry.index.0, u16::from(entry.sub_index.0), entry.data_type.index().0, entry.size];
+        let group = entry.flags.group().map_or(0, |group| u16::from(group.0));
+        let place = u16::from(entry.sub_index.0) | group << 8;
+        let numbers = [entry.index.0, place, entry.data_type.index().0, entry.size];
         numbers.into_iter().flat_map(u16::to_le_bytes)
     });
     bytes.fold(0x811C_9DC5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))

@@ -1,15 +1,24 @@
 use super::*;
 use crate::parse;
 use edskit_runtime::StorageGroup;
-use edskit_types::{Index, SubIndex};
+use edskit_types::{BitRates, Bitrate, Index, SubIndex};
 
 /// An object of an EDS.
 fn object(header: &str, name: &str, keys: &str) -> String {
     format!("[{header}]\nParameterName={name}\n{}\n", keys.replace(' ', "\n"))
 }
 
+/// What makes a file that of a configured device, to which nothing is added.
+const CONFIGURED: &str = "[DeviceComissioning]\n";
+
+/// The layout of some objects alone.
 fn layout(eds: &str, side_file: &str) -> Layout {
-    parse(eds.as_bytes(), Some(side_file)).unwrap()
+    parse(format!("{eds}{CONFIGURED}").as_bytes(), Some(side_file)).unwrap()
+}
+
+/// The layout of a device: with what CiA 301 adds.
+fn device(eds: &str) -> Layout {
+    parse(eds.as_bytes(), None).unwrap()
 }
 
 fn entry(layout: &Layout, index: u16, sub_index: u8) -> Entry {
@@ -116,7 +125,7 @@ fn compact_storage_is_expanded() {
 #[test]
 fn implicit_pdos_have_parameters() {
     let info = "[DeviceInfo]\nCompactPDO=0x13\nNrOfRXPDO=5\nNrOfTXPDO=1\nGranularity=16\n";
-    let of_eds = layout(info, "");
+    let of_eds = device(info);
     assert_eq!(
         of_eds.counts,
         Counts { rpdos: 5, tpdos: 1, mapped: 24, servers: 1, consumers: 0, buffers: 8 }
@@ -133,7 +142,7 @@ fn implicit_pdos_have_parameters() {
 
 #[test]
 fn there_can_be_512_pdos_each_way() {
-    let layout = layout("[DeviceInfo]\nGranularity=8\nCompactPDO=0x3F\nNrOfRXPDO=512\nNrOfTXPDO=512\n", "");
+    let layout = device("[DeviceInfo]\nGranularity=8\nCompactPDO=0x3F\nNrOfRXPDO=512\nNrOfTXPDO=512\n");
     assert_eq!((layout.counts.rpdos, layout.counts.tpdos, layout.counts.mapped), (512, 512, 1024 * 8));
     assert!(layout.defaults.len() < MOST_BYTES, "{}", layout.defaults.len());
 }
@@ -159,7 +168,7 @@ fn a_deftype_is_followed_and_unknown_types_are_domains() {
     assert_eq!(layout.defaults[..2], [0x34, 0x12]);
     assert!(!entry(&layout, 0x2005, 0).flags.has(Flags::WRITE));
     assert_eq!(
-        messages(&layout.notes),
+        messages(&layout.lost),
         [
             "a.eds:20:10: GEN [2001] becomes a DOMAIN, which only the application knows: `0x0042` is no data type of values",
             "a.eds:25:10: GEN [2002] becomes a DOMAIN, which only the application knows: `0x0050` is no data type of values",
@@ -174,7 +183,7 @@ fn a_deftype_is_followed_and_unknown_types_are_domains() {
 fn what_compact_sub_objects_share_is_noted_once() {
     let layout = layout(&object("2000", "x", "ObjectType=8 DataType=0x50 CompactSubObj=200"), "");
     assert_eq!(
-        messages(&layout.notes),
+        messages(&layout.lost),
         [
             "a.eds:1:2: GEN [2000] has no access type that can be read, and becomes ro",
             "a.eds:4:10: GEN [2000] becomes a DOMAIN, which only the application knows: `0x50` is no data type of values",
@@ -188,7 +197,7 @@ fn a_configured_value_comes_before_the_default() {
         + &object("1019", "y", "DataType=5 AccessType=rw DefaultValue=300");
     let layout = layout(&eds, "");
     assert_eq!(layout.defaults, [2, 0, 0]);
-    assert_eq!(messages(&layout.notes), ["a.eds:11:14: GEN `300` is left out: 300 is outside the data type"]);
+    assert_eq!(messages(&layout.lost), ["a.eds:11:14: GEN `300` is left out: 300 is outside the data type"]);
 }
 
 #[test]
@@ -274,7 +283,7 @@ fn a_side_file_names_entries_of_some_configurations_and_units() {
     let optional: Vec<bool> = layout.entries.iter().map(|entry| entry.flags.has(Flags::OPTIONAL)).collect();
     assert_eq!(optional, [false, true]);
     assert!(layout.sources.iter().all(|source| source.unit.as_deref() == Some("mm")));
-    assert_eq!(messages(&layout.notes), ["a.toml:1:21: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.assumptions), ["a.toml:1:21: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -290,7 +299,7 @@ fn a_side_file_names_what_the_device_changes() {
     assert_eq!(variable, [true, true, false, true, false], "a domain lies nowhere");
     assert_eq!(layout.defaults, [&b"\x04\0Pump"[..], &[2], &[2, 0, 0, 0]].concat());
     assert_eq!(entry(&layout, 0x1018, 2).flags, Flags::READ.and(Flags::VARIABLE), "it is not stored");
-    assert_eq!(messages(&layout.notes), ["a.toml:1:53: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.assumptions), ["a.toml:1:53: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -312,7 +321,7 @@ fn a_side_file_names_what_rpdos_write() {
     assert_eq!(of(0x2001), received);
     assert_eq!(of(0x2002), Flags::READ, "no PDO carries a domain");
     assert_eq!(of(0x2003), Flags::READ.and(Flags::VARIABLE));
-    assert_eq!(messages(&layout.notes), ["a.toml:1:22: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.assumptions), ["a.toml:1:22: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -388,4 +397,331 @@ fn what_cannot_be_addressed_is_refused() {
     assert!(
         messages(&refused)[0].ends_with("this is one entry more than the 65535 that a dictionary can have")
     );
+}
+
+/// A device with these objects besides the mandatory ones.
+fn with_mandatory(objects: &str) -> String {
+    let mandatory = [
+        object("1000", "Type", "DataType=7 AccessType=ro DefaultValue=0"),
+        object("1001", "Errors", "DataType=5 AccessType=ro DefaultValue=0"),
+        object("1018", "Identity", "ObjectType=9"),
+        object("1018sub0", "n", "DataType=5 AccessType=ro DefaultValue=1"),
+        object("1018sub1", "v", "DataType=7 AccessType=ro DefaultValue=5"),
+    ];
+    format!("{}{objects}", mandatory.concat())
+}
+
+/// The default of an entry as a number, and whether the node-ID is added.
+fn value(layout: &Layout, index: u16, sub_index: u8) -> (u64, bool) {
+    let entry = entry(layout, index, sub_index);
+    let bytes = layout.default_of(&entry);
+    let number = bytes.iter().rev().fold(0, |number, byte| number << 8 | u64::from(*byte));
+    (number, entry.flags.has(Flags::NODE_RELATIVE))
+}
+
+/// A record or array without any value: sub-index 00h, and these further ones of 32 bits.
+fn without_values(index: &str, subs: &[u8]) -> String {
+    let header = object(index, "x", "ObjectType=9");
+    let count = object(&format!("{index}sub0"), "n", "DataType=5 AccessType=ro");
+    let elements =
+        subs.iter().map(|sub| object(&format!("{index}sub{sub:X}"), "e", "DataType=7 AccessType=rw"));
+    format!("{header}{count}{}", elements.collect::<String>())
+}
+
+#[test]
+fn what_is_meant_is_laid_out_as_if_it_were_written_so() {
+    let right = "DataType=0x0006 AccessType=rw DefaultValue=1000 LowLimit=10 PDOMapping=1";
+    let right = layout(&object("2000", "x", right), "");
+    let written = "[2000h]\nParameterName=x\nObjectType=VAR\nDataType=0x0006 ; UNSIGNED16\nAccessType=R/W\n\
+        DefaultValue=1000; ms\nLowLimit=0x0x0A\nPDOMapping=yes\n";
+    let meant = layout(written, "");
+    assert_eq!(
+        (&meant.entries, &meant.defaults, &meant.limits),
+        (&right.entries, &right.defaults, &right.limits)
+    );
+    assert_eq!((messages(&meant.lost), messages(&right.assumptions)), (vec![], vec![]));
+    assert_eq!(
+        messages(&meant.assumptions),
+        [
+            "a.eds:1:2: GEN 7 values are read as they were meant, as here `2000h` as `2000` (`edskit show --meant` with the \
+          file lists them, `edskit lint --fix` mends them)"
+        ]
+    );
+    for (written, data_type, bytes) in [
+        ("$NODEID + 180h", 7, vec![0x80, 1, 0, 0]),
+        ("1,5", 8, 1.5_f32.to_le_bytes().to_vec()),
+        ("true", 1, vec![1]),
+        ("01 02 ; two", 10, vec![1, 2]),
+        ("365 43200000", 12, vec![0x00, 0x2E, 0x93, 0x02, 0x6D, 0x01]),
+        ("0x1234 5678", 7, vec![0x78, 0x56, 0x34, 0x12]),
+    ] {
+        let text = format!(
+            "[2000]\nParameterName=x\nDataType={data_type}\nAccessType=const\nDefaultValue={written}\n"
+        );
+        let layout = layout(&text, "");
+        assert_eq!(layout.default_of(&entry(&layout, 0x2000, 0)), bytes, "{written}");
+    }
+}
+
+#[test]
+fn a_range_type_brings_its_limits() {
+    let eds = "[A0]\nObjectType=6\n[A0sub1]\nDefaultValue=3\n[A0sub2]\nDefaultValue=-100\n[A0sub3]\nDefaultValue=100\n\
+        [2000]\nDataType=0x00A0\nAccessType=rw\nDefaultValue=25\n\
+        [2001]\nObjectType=8\nDataType=0xA0\nAccessType=rw\nCompactSubObj=1\n";
+    let layout = layout(eds, "");
+    assert_eq!(entry(&layout, 0x2000, 0).data_type, DataType::Integer16);
+    assert_eq!(value(&layout, 0x2000, 0), (25, false));
+    let (low, high) = (-100_i64 as u64, 100);
+    let limits = [Position(0), Position(2)].map(|position| Limits { position, low, high });
+    assert_eq!(layout.limits, limits);
+    assert_eq!(messages(&layout.lost), [""; 0]);
+}
+
+#[test]
+fn what_an_eds_leaves_out_has_the_default_of_cia_301() {
+    let vars = ["1005", "1012", "1014"].map(|index| object(index, "x", "DataType=7 AccessType=rw"));
+    let records = [
+        without_values("1003", &[1, 2]),
+        without_values("1010", &[1, 3]),
+        without_values("1200", &[1, 2]),
+        without_values("1201", &[1, 2]),
+        without_values("1403", &[1]),
+        without_values("1404", &[1]),
+        without_values("1800", &[1]),
+        without_values("1A00", &[1, 2]),
+        without_values("2000", &[1, 4]),
+    ];
+    let objects = format!("{}{}", vars.concat(), records.concat());
+    let eds = with_mandatory(&objects);
+    let with_defaults = device(&eds);
+    for (index, sub_index, wanted) in [
+        (0x1005, 0, (0x80, false)),
+        (0x1012, 0, (0x100, false)),
+        (0x1014, 0, (0x80, true)),
+        (0x1003, 0, (0, false)),
+        (0x1010, 0, (3, false)),
+        (0x1200, 0, (2, false)),
+        (0x1200, 1, (0x600, true)),
+        (0x1200, 2, (0x580, true)),
+        (0x1201, 2, (0x8000_0000, false)),
+        (0x1403, 1, (0x500, true)),
+        (0x1404, 1, (0x8000_0000, false)),
+        (0x1800, 1, (0x180, true)),
+        (0x1A00, 0, (0, false)),
+        (0x2000, 0, (4, false)),
+        (0x2000, 1, (0, false)),
+    ] {
+        assert_eq!(value(&with_defaults, index, sub_index), wanted, "{index:X}:{sub_index:02X}");
+    }
+    assert_eq!(
+        messages(&with_defaults.assumptions),
+        [
+            "a.eds:24:2: GEN 17 entries have no value in the file, and what CiA 301 gives: 1005h = 0x80, 1010h sub-index 00h = \
+          3h, 1012h = 0x100, 1014h = $NODEID+0x80, 1200h sub-index 00h = 2h, 1200h sub-index 01h = $NODEID+0x600, and 11 more"
+        ]
+    );
+    let configured = layout(&eds, "");
+    assert_eq!(messages(&configured.assumptions), [""; 0]);
+    assert_eq!(value(&configured, 0x1014, 0), (0, false));
+}
+
+#[test]
+fn what_a_file_says_is_not_replaced() {
+    let objects = [
+        object("1014", "x", "DataType=7 AccessType=rw DefaultValue=0x85"),
+        without_values("1600", &[2]).replace("AccessType=ro\n", "AccessType=rw\nDefaultValue=1\n"),
+        object("1600sub1", "e", "DataType=7 AccessType=rw DefaultValue=0x20000010"),
+    ];
+    let layout = device(&with_mandatory(&objects.concat()));
+    assert_eq!((value(&layout, 0x1014, 0), value(&layout, 0x1600, 0)), ((0x85, false), (1, false)));
+    assert_eq!(messages(&layout.assumptions), [""; 0]);
+}
+
+#[test]
+fn mandatory_objects_are_added_to_an_eds() {
+    let info = "[DeviceInfo]\nVendorNumber=0x1B7 ; ours\nProductNumber=0x51\nRevisionNumber=0x00010000\n[MandatoryObjects]\n";
+    let eds = format!("{info}{}", object("1017", "x", "DataType=6 AccessType=rw DefaultValue=0"));
+    let complete = device(&eds);
+    let entries: Vec<_> = complete.entries.iter().map(|entry| (entry.index.0, entry.sub_index.0)).collect();
+    let identity = [(0x1018, 0), (0x1018, 1), (0x1018, 2), (0x1018, 3)];
+    assert_eq!(entries[..3], [(0x1000, 0), (0x1001, 0), (0x1017, 0)]);
+    assert_eq!(entries[3..], identity);
+    assert_eq!([1, 2, 3].map(|sub| value(&complete, 0x1018, sub).0), [0x1B7, 0x51, 0x10000]);
+    assert_eq!(
+        messages(&complete.assumptions)[1..],
+        [
+            "a.eds:5:2: GEN the mandatory object 1000h is missing in the file, and is added with 0",
+            "a.eds:5:2: GEN the mandatory object 1001h is missing in the file, and is added with 0",
+            "a.eds:5:2: GEN the mandatory object 1018h is missing in the file, and is added with the numbers of [DeviceInfo]",
+        ]
+    );
+    assert_eq!(layout(&eds, "").entries.len(), 1, "a DCF is not changed");
+    assert!(device("[FileInfo]\n").entries.is_empty(), "a file without any object is no device");
+}
+
+#[test]
+fn a_missing_sub_index_00h_is_added() {
+    let eds = with_mandatory(
+        &[object("2000", "x", "ObjectType=8"), object("2000sub3", "e", "DataType=5 AccessType=rw")].concat(),
+    );
+    let layout = device(&eds);
+    assert_eq!(value(&layout, 0x2000, 0), (3, false));
+    assert_eq!(
+        messages(&layout.assumptions),
+        ["a.eds:24:2: GEN sub-index 00h of 2000h is missing in the file, and is added with 3"]
+    );
+}
+
+#[test]
+fn the_error_history_begins_empty_and_can_be_cleared_in_every_form() {
+    let long = [
+        object("1003", "x", "ObjectType=8"),
+        object("1003sub0", "n", "DataType=5 AccessType=ro DefaultValue=8 ParameterValue=2"),
+        object("1003sub1", "e", "DataType=7 AccessType=ro DefaultValue=0x8130"),
+    ];
+    let compact = object("1003", "x", "ObjectType=8 DataType=7 AccessType=ro CompactSubObj=8");
+    let register = object("1001", "e", "DataType=5 AccessType=ro DefaultValue=0x11");
+    for (eds, notes) in [(long.concat(), 2), (compact, 0)] {
+        for layout in [layout(&format!("{register}{eds}"), ""), device(&format!("{register}{eds}"))] {
+            assert_eq!(
+                (value(&layout, 0x1003, 0), value(&layout, 0x1003, 1)),
+                ((0, false), (0, false)),
+                "{eds}"
+            );
+            assert_eq!(value(&layout, 0x1001, 0), (0, false));
+            assert!(entry(&layout, 0x1003, 0).flags.has(Flags::READ.and(Flags::WRITE).and(Flags::VARIABLE)));
+            assert!(!entry(&layout, 0x1003, 1).flags.has(Flags::WRITE));
+            assert_eq!(layout.notes.len(), notes + 1, "{:?}", messages(&layout.assumptions));
+        }
+    }
+}
+
+#[test]
+fn the_data_of_a_domain_are_left_out_and_told() {
+    let eds = [
+        object("2000", "a", "ObjectType=2 DataType=15 DefaultValue=0102030405"),
+        object("2001", "b", "DataType=15 AccessType=rw ParameterValue=01"),
+        object("2002", "c", "ObjectType=2 UploadFile=trace.bin"),
+    ];
+    assert_eq!(
+        messages(&layout(&eds.concat(), "").notes),
+        [
+            "a.eds:5:14: GEN `0102030405` is left out: the application has the data of a DOMAIN",
+            "a.eds:10:16: GEN `01` is left out: the application has the data of a DOMAIN",
+        ]
+    );
+}
+
+#[test]
+fn cob_ids_that_cannot_be_used_are_told() {
+    let pdo = |index: &str, value: &str| {
+        let keys = format!("DataType=7 AccessType=rw DefaultValue={value}");
+        format!("{}{}", object(index, "x", "ObjectType=9"), object(&format!("{index}sub1"), "c", &keys))
+    };
+    let told = |eds: &str, node_id: Option<u8>| {
+        let problems =
+            layout(eds, "").cob_id_problems(node_id.map(|id| edskit_types::NodeId::new(id).unwrap()));
+        messages(&problems).join("|")
+    };
+    let help = " (set bit 31, as in `0x80000000`, if it is not meant to be)";
+    assert_eq!(
+        told(&pdo("1800", "0"), Some(5)),
+        format!("a.eds:8:14: GEN TPDO1 is not in use: the CAN-ID 000h is restricted: 000h (NMT){help}")
+    );
+    for (index, value, reason) in [
+        ("1401", "0x601", "RPDO2 is not in use: the CAN-ID 601h is restricted: 601h to 67Fh (default SDO)"),
+        ("1806", "0x180", "TPDO7 is not in use: the CAN-ID 180h is restricted: 101h to 180h (reserved)"),
+        ("1800", "0x20000185", "TPDO1 is not in use: CAN-IDs of 29 bits are not supported"),
+        ("1400", "0x1185", "RPDO1 is not in use: bits 28 to 11 are not 0"),
+        (
+            "1201",
+            "0x701",
+            "SDO server 2 request is not in use: the CAN-ID 701h is restricted: 701h to 77Fh (NMT error control)",
+        ),
+        (
+            "1804",
+            "$NODEID+0x680",
+            "TPDO5 is not in use at node-IDs 96 to 127: the CAN-ID 6E0h is restricted: 6E0h to 6FFh (reserved)",
+        ),
+    ] {
+        assert_eq!(told(&pdo(index, value), None), format!("a.eds:8:14: GEN {reason}{help}"));
+    }
+    assert_eq!(told(&pdo("1804", "$NODEID+0x680"), Some(5)), "");
+    for (index, value, reason) in [
+        ("1005", "0", "SYNC is not in use: the CAN-ID 000h is restricted: 000h (NMT)"),
+        ("1005", "0x80000000", "SYNC is not in use: the CAN-ID 000h is restricted: 000h (NMT)"),
+        (
+            "1012",
+            "0x80000701",
+            "TIME is not in use: the CAN-ID 701h is restricted: 701h to 77Fh (NMT error control)",
+        ),
+        ("1014", "0", "EMCY is not in use: the CAN-ID 000h is restricted: 000h (NMT)"),
+    ] {
+        let keys = format!("DataType=7 AccessType=rw DefaultValue={value}");
+        let found = told(&object(index, "x", &keys), None);
+        assert!(found.starts_with(&format!("a.eds:5:14: GEN {reason}")), "{found}");
+    }
+    for (index, value) in
+        [("1800", "0x80000000"), ("1800", "0xC0000000"), ("1400", "0x181"), ("1201", "0x605")]
+    {
+        assert_eq!(told(&pdo(index, value), None), "", "{index} {value}");
+    }
+    for (index, value) in
+        [("1012", "0"), ("1005", "0x40000080"), ("1014", "$NODEID+0x80"), ("1014", "0x80000000")]
+    {
+        let keys = format!("DataType=7 AccessType=rw DefaultValue={value}");
+        assert_eq!(told(&object(index, "x", &keys), None), "", "{index} {value}");
+    }
+    let implicit = device("[DeviceInfo]\nCompactPDO=0x13\nNrOfRXPDO=5\nNrOfTXPDO=5\n");
+    assert_eq!((implicit.cob_ids.len(), implicit.cob_id_problems(None).len()), (10, 0));
+}
+
+#[test]
+fn device_info_says_what_a_node_may() {
+    let of = |keys: &str| {
+        let text = format!("[DeviceInfo]\n{}\n", keys.replace(' ', "\n"));
+        layout(&(text + &object("2000", "x", "DataType=6 AccessType=rw PDOMapping=1")), "").settings
+    };
+    let nothing = of("VendorName=edskit");
+    assert_eq!((nothing.bit_rates, nothing.has_lss, nothing.granularity), (BitRates::ALL, true, 1));
+    assert!(!nothing.starts_by_itself);
+    let some = of("BaudRate_10=0 BaudRate_125=1 BaudRate_500=0x1 LSS_Supported=0 Granularity=8");
+    assert_eq!(some.bit_rates, BitRates::NONE.and(Bitrate::Kbit125).and(Bitrate::Kbit500));
+    assert_eq!((some.has_lss, some.granularity), (false, 8));
+    assert_eq!(of("BaudRate_10=0 BaudRate_20=0").bit_rates, BitRates::NONE);
+    for (keys, starts) in [
+        ("SimpleBootUpMaster=1 SimpleBootUpSlave=0", true),
+        ("SimpleBootUpMaster=1 SimpleBootUpSlave=1", false),
+        ("SimpleBootUpMaster=0 SimpleBootUpSlave=0", false),
+        ("SimpleBootUpMaster=1", false),
+    ] {
+        assert_eq!(of(keys).starts_by_itself, starts, "{keys}");
+    }
+}
+
+#[test]
+fn a_granularity_that_the_file_contradicts_counts_as_1() {
+    let eds = "[DeviceInfo]\nGranularity=64\n".to_owned()
+        + &object("1A00sub1", "x", "DataType=7 AccessType=rw DefaultValue=0x20000010")
+        + &object("2000", "x", "DataType=6 AccessType=rw PDOMapping=1");
+    let layout = layout(&eds, "");
+    assert_eq!(layout.settings.granularity, 1);
+    let said = messages(&layout.assumptions);
+    let expected = "a.eds:2:13: GEN Granularity 64 counts as 1, because 2000h sub-index 00h with its 16 bits can be mapped";
+    assert!(said.iter().any(|line| line == expected), "{said:#?}");
+}
+
+#[test]
+fn a_mapping_of_a_pdo_that_does_not_exist_stops_nothing() {
+    let mapping = "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\nDefaultValue=0x20000010\n";
+    let severity = |cob_id: &str| {
+        let communication =
+            format!("[1800]\nObjectType=9\n[1800sub1]\nDataType=7\nAccessType=rw\nDefaultValue={cob_id}\n");
+        let problems = layout(&format!("{communication}{mapping}"), "").mapping_problems();
+        problems.iter().map(|problem| problem.severity).collect::<Vec<_>>()
+    };
+    assert_eq!(severity("$NODEID+0x80000180"), [Severity::Warning]);
+    assert_eq!(severity("$NODEID+0x180"), [Severity::Error]);
+    let alone = layout(mapping, "").mapping_problems();
+    assert_eq!(alone[0].severity, Severity::Error, "nothing says that it does not exist");
 }

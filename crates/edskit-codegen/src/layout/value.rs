@@ -19,7 +19,12 @@ impl Bytes {
 
     /// The value of an entry of the file. A DOMAIN has none in a dictionary.
     pub(super) fn of_entry(entry: Entry<'_>, data_type: DataType) -> Result<Self, String> {
-        let value = entry.value(Some(data_type)).value.map_err(|error| error.to_string())?;
+        let field = entry.value(Some(data_type));
+        let value = match (field.known(), field.value) {
+            (Some(value), _) => value,
+            (None, Err(error)) => return Err(error.to_string()),
+            (None, Ok(value)) => value,
+        };
         Self::of(value, data_type, &entry.text())
     }
 

@@ -28,7 +28,7 @@ fn the_same_input_gives_the_same_bytes() {
 
 #[test]
 fn names_stay_in_comments() {
-    let eds = "[2000]\nParameterName=*/ pub fn a() {} \" \\ `x` [y] r#\"\nDataType=5\nAccessType=rw\n";
+    let eds = "[2000]\nParameterName=*/ pub fn a() {} \" \\ `x` [y] r#\"\nDataType=5\nAccessType=rw\n[DeviceComissioning]\n";
     let code = render(&parse(eds.as_bytes(), None).unwrap(), &Naming::of("a\"{b}.eds"));
     assert!(code.contains("// */ pub fn a() {} \" \\ `x` [y] r#\"\n"), "{code}");
     assert!(code.contains("/// `*/ pub fn a() {} \" \\ 'x' [y] r#\"`: `[2000]`, UNSIGNED8, rw.\n"), "{code}");

@@ -4,10 +4,12 @@
 //! caller hands further ones to [`Linter::with_profiles`](crate::Linter::with_profiles).
 
 mod applied;
+mod defaults;
 mod notation;
 mod read;
 
 pub(crate) use applied::{Application, Applied, Prescribed, Prescription, alternatives, profile_number};
+pub use defaults::{StandardDefault, standard_default};
 pub use read::ProfileError;
 
 use core::fmt;

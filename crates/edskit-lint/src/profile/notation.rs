@@ -3,11 +3,11 @@
 //! A visitor's complaint gets the place of what it was shown, so everything is checked inside visitors.
 
 use super::Expected;
-use crate::similar;
 use core::fmt;
 use core::marker::PhantomData;
 use core::ops::RangeInclusive;
 use edskit_model::Formula;
+use edskit_model::nearest;
 use edskit_types::{AccessType, DataType, Index, NodeId, ObjectCode};
 use serde::de::value::{I64Deserializer, StrDeserializer};
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
@@ -58,7 +58,7 @@ impl<'de> Deserialize<'de> for Access {
 }
 
 fn unknown<'a, E: de::Error>(what: &str, word: &str, known: impl Iterator<Item = &'a str>) -> E {
-    E::custom(match similar::nearest(word, known) {
+    E::custom(match nearest(word, known) {
         Some(nearest) => format!("`{word}` is no {what}; did you mean `{nearest}`?"),
         None => format!("`{word}` is no {what}"),
     })

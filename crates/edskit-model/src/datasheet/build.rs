@@ -1,16 +1,35 @@
 //! From a document to the index over it.
 
-use super::{Datasheet, EntryRecord, ObjectRecord, SectionRecord, SubObjectRecord};
+use super::{Datasheet, EntryRecord, ObjectRecord, SectionRecord, SubObjectRecord, decimal_names};
 use crate::document::{Document, LineKind};
 use crate::key::{KEY_NAMES, Key, KeyGroup};
 use crate::section::SectionKind;
 
 pub(super) fn datasheet(document: Document) -> Datasheet {
     let (sections, entries, keys) = read_lines(&document);
+    let mut sheet = Datasheet {
+        document,
+        sections,
+        entries,
+        objects: Vec::new(),
+        sub_objects: Vec::new(),
+        others: Vec::new(),
+        decimal_names: Vec::new(),
+        keys,
+    };
+    index(&mut sheet);
+    if decimal_names::read(&mut sheet) {
+        index(&mut sheet);
+    }
+    sheet
+}
+
+/// Finds the objects, the sub-objects, and the first section of every other kind.
+fn index(sheet: &mut Datasheet) {
     let mut objects = Vec::new();
     let mut sub_objects = Vec::new();
     let mut others = Vec::new();
-    for (id, section) in sections.iter().enumerate() {
+    for (id, section) in sheet.sections.iter().enumerate() {
         let section_id = id as u32;
         match section.kind {
             SectionKind::Object(index) => {
@@ -31,7 +50,7 @@ pub(super) fn datasheet(document: Document) -> Datasheet {
     others.sort_by_key(|&(kind, _)| kind);
     others.dedup_by_key(|&mut (kind, _)| kind);
     join(&mut objects, &sub_objects);
-    Datasheet { document, sections, entries, objects, sub_objects, others, keys }
+    (sheet.objects, sheet.sub_objects, sheet.others) = (objects, sub_objects, others);
 }
 
 fn read_lines(document: &Document) -> (Vec<SectionRecord>, Vec<EntryRecord>, [bool; KEY_NAMES]) {

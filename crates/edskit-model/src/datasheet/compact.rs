@@ -66,6 +66,8 @@ impl<'a> DictionaryEntry<'a> {
     pub fn access(self) -> Option<AccessType> {
         match self.origin {
             Origin::Described(description) => description.access(),
+            // Clearing the error history is to write its count, however it is stored (CiA 301 v4.2, 7.5.2.4).
+            Origin::Count(object) if object.index() == Index::PREDEFINED_ERROR_FIELD => Some(AccessType::Rw),
             Origin::Count(_) => Some(AccessType::Ro),
             Origin::Element(object) => object.access(),
         }
@@ -84,6 +86,9 @@ impl<'a> DictionaryEntry<'a> {
     pub fn default_value(self) -> Option<Value<'a>> {
         match self.origin {
             Origin::Described(description) => description.default_value()?.known(),
+            Origin::Count(object) if object.index() == Index::PREDEFINED_ERROR_FIELD => {
+                Some(Value::Integer(Number::decimal(0)))
+            }
             Origin::Count(object) => Some(Value::Integer(Number::decimal(object.compact_count().into()))),
             Origin::Element(object) => object.default_value()?.known(),
         }
@@ -106,6 +111,8 @@ impl<'a> DictionaryEntry<'a> {
     pub fn value_field(self) -> Option<Field<'a, Value<'a>>> {
         match self.origin {
             Origin::Described(description) => description.value(),
+            // How many errors there are, no entry of the file can say.
+            Origin::Count(object) if object.index() == Index::PREDEFINED_ERROR_FIELD => None,
             Origin::Count(object) => Some(object.compact_sub_obj()?.entry.value(Some(DataType::Unsigned8))),
             Origin::Element(object) => {
                 let listed = self.listed(object, SectionKind::CompactValues);
@@ -123,14 +130,31 @@ impl<'a> DictionaryEntry<'a> {
         }
     }
 
-    /// The limits that can be read; a compact entry has none.
-    pub fn limits(self) -> (Option<Value<'a>>, Option<Value<'a>>) {
+    /// The limits in force, readable or not: those of the description or, where it has none, those of its range type.
+    pub fn limits(self) -> [Option<Field<'a, Value<'a>>>; 2] {
+        let (description, own) = match self.origin {
+            Origin::Described(description) => {
+                (description, [description.low_limit(), description.high_limit()])
+            }
+            // A compact entry has no limits of its own.
+            Origin::Element(object) => (object.description(), [None, None]),
+            Origin::Count(_) => return [None, None],
+        };
+        let of_type =
+            description.resolved_type().map_or([None, None], |resolved| [resolved.low, resolved.high]);
+        let [own_low, own_high] = own;
+        let [low, high] = of_type;
+        [own_low.or(low), own_high.or(high)]
+    }
+
+    /// Whether it is one of the equal entries of an object with CompactSubObj and has no value, name or denotation of its
+    /// own, nor is it their number.
+    pub fn is_like_others(self) -> bool {
+        let lists = [SectionKind::CompactNames, SectionKind::CompactValues, SectionKind::CompactDenotations];
         match self.origin {
-            Origin::Described(description) => (
-                description.low_limit().and_then(|limit| limit.known()),
-                description.high_limit().and_then(|limit| limit.known()),
-            ),
-            Origin::Count(_) | Origin::Element(_) => (None, None),
+            Origin::Described(_) => false,
+            Origin::Count(_) => true,
+            Origin::Element(object) => lists.into_iter().all(|kind| self.listed(object, kind).is_none()),
         }
     }
 
@@ -149,7 +173,10 @@ impl<'a> Object<'a> {
     /// The entry at `sub_index`, described or compact.
     pub fn dictionary_entry(self, sub_index: SubIndex) -> Option<DictionaryEntry<'a>> {
         let compact = self.compact_count();
-        let has_subs = compact > 0 || self.object_code().is_none_or(|code| code.has_sub_objects());
+        // Where the object code cannot be read, the sections say what the object is.
+        let is_described = || self.sub_objects().len() > 0;
+        let has_subs =
+            compact > 0 || self.object_code().map_or_else(is_described, |code| code.has_sub_objects());
         let origin = if let Some(sub) = self.sub_object(sub_index) {
             Origin::Described(sub.description())
         } else if !has_subs {

@@ -1,6 +1,6 @@
 //! The attributes of an object or a sub-object (CiA 306 v1.3, 4.6.3.2).
 
-use super::{Entry, Field, Section};
+use super::{Entry, Field, ResolvedType, Section};
 use crate::key::KeyName;
 use crate::value::Value;
 use core::ops::Deref;
@@ -51,13 +51,23 @@ impl<'a> Description<'a> {
         self.filled(KeyName::DataType).map(Entry::unsigned)
     }
 
-    /// The data type, if it is one of CiA 301; DOMAIN for a DOMAIN object without one.
+    /// The data type of CiA 301: the one that is named, or the one behind a type that the file defines; DOMAIN for a
+    /// DOMAIN object without one.
     #[inline]
     pub fn standard_type(self) -> Option<DataType> {
         match self.data_type() {
-            Some(field) => field.known().and_then(|index| DataType::from_index(Index(index))),
+            Some(field) => {
+                let index = Index(field.known()?);
+                DataType::from_index(index).or_else(|| Some(self.sheet().resolve_type(index)?.data_type))
+            }
             None => (self.object_code() == Some(ObjectCode::Domain)).then_some(DataType::Domain),
         }
+    }
+
+    /// The data type with its limits, where `DataType` names one that the file defines.
+    pub fn resolved_type(self) -> Option<ResolvedType<'a>> {
+        let index = Index(self.data_type()?.known()?);
+        if DataType::from_index(index).is_some() { None } else { self.sheet().resolve_type(index) }
     }
 
     /// `AccessType`

@@ -1,7 +1,8 @@
 //! One `key=value` line, and what its value means.
 
 use super::{Datasheet, Section};
-use crate::key::Key;
+use crate::key::{Key, KeyName};
+use crate::meant::{self, Slip, Wanted};
 use crate::value::{Number, Value, ValueError, ValueErrorKind};
 use crate::{Line, Span};
 use core::fmt;
@@ -130,10 +131,32 @@ impl<'a> Entry<'a> {
     /// The value as one of `data_type`; `None` for a type that CiA 301 does not define.
     #[inline]
     pub fn value(self, data_type: Option<DataType>) -> Field<'a, Value<'a>> {
-        self.read(|raw| match data_type {
+        let field = self.read(|raw| match data_type {
             Some(data_type) => Value::parse(data_type, raw),
             None => Value::parse_untyped(raw),
-        })
+        });
+        Field { data_type, ..field }
+    }
+
+    /// What the value, which is none by CiA 306, was meant to be; `None` where nobody can know. `wanted` is what has to
+    /// stand there.
+    pub fn slip(self, wanted: Wanted) -> Option<Slip> {
+        meant::of(self.raw(), wanted)
+    }
+
+    /// The text that was certainly meant in the place of the value.
+    #[cold]
+    fn meant(self, wanted: Wanted) -> Option<String> {
+        self.slip(wanted).filter(|slip| slip.certain).map(|slip| slip.text)
+    }
+
+    /// What a number of this entry is.
+    pub(super) fn wanted_number(self) -> Wanted {
+        match self.key().name {
+            KeyName::DataType => Wanted::DataType,
+            KeyName::Item => Wanted::Index,
+            _ => Wanted::Number,
+        }
     }
 
     #[inline]
@@ -146,7 +169,7 @@ impl<'a> Entry<'a> {
         let raw = self.raw();
         let value =
             if raw.is_empty() { Err(ValueError::whole(ValueErrorKind::Empty, raw)) } else { parse(raw) };
-        Field { entry: self, value }
+        Field { entry: self, value, data_type: None }
     }
 }
 
@@ -157,12 +180,18 @@ impl fmt::Debug for Entry<'_> {
 }
 
 /// A value of the file: where it stands, and what it means, or why it means nothing.
+///
+/// There are three answers: a value that is written as CiA 306 wants it ([`Field::value`] has it), one that is written
+/// wrongly but can have been meant in one way only ([`Field::known`] gives it too, see [`meant`]), and one that nobody can
+/// read.
 #[derive(Clone, Copy, Debug)]
 pub struct Field<'a, T> {
     /// The entry that holds the value.
     pub entry: Entry<'a>,
-    /// The meaning, or the reason why the text has none.
+    /// The meaning by CiA 306, or the reason why the text has none.
     pub value: Result<T, ValueError>,
+    /// What the value was read by, where it is a typed one.
+    data_type: Option<DataType>,
 }
 
 impl<'a, T> Field<'a, T> {
@@ -176,16 +205,89 @@ impl<'a, T> Field<'a, T> {
         self.entry.text()
     }
 
-    /// The meaning, if the text has one.
-    #[inline]
-    pub fn known(self) -> Option<T> {
-        self.value.ok()
-    }
-
     /// Where in the file the text goes wrong.
     pub fn error_span(&self) -> Option<Span> {
         let error = self.value.as_ref().err()?;
         Some(self.span().sub(error.span.start as usize, error.span.len()))
+    }
+}
+
+impl<'a, T: Meant<'a>> Field<'a, T> {
+    /// The meaning: what the text says or, where it is written wrongly, what was certainly meant.
+    ///
+    /// ```
+    /// use edskit_model::Datasheet;
+    /// let sheet = Datasheet::parse(b"[1017]\nDataType=0x0006 ; UNSIGNED16\n");
+    /// let field = sheet.objects().next().unwrap().data_type().unwrap();
+    /// assert!(field.value.is_err());
+    /// assert_eq!(field.known(), Some(6));
+    /// ```
+    #[inline]
+    pub fn known(self) -> Option<T> {
+        match self.value {
+            Ok(value) => Some(value),
+            Err(error) => self.meant(error),
+        }
+    }
+
+    #[cold]
+    fn meant(self, error: ValueError) -> Option<T> {
+        if error.kind == ValueErrorKind::Empty { None } else { T::meant(self.entry, self.data_type) }
+    }
+}
+
+/// What values can be meant, though they are written wrongly.
+pub trait Meant<'a>: Sized {
+    /// What was certainly meant in the place of a malformed value of `data_type`, which only typed values have.
+    fn meant(entry: Entry<'a>, data_type: Option<DataType>) -> Option<Self>;
+}
+
+impl Meant<'_> for Number {
+    fn meant(entry: Entry<'_>, _: Option<DataType>) -> Option<Self> {
+        Number::parse(entry.meant(entry.wanted_number())?.as_bytes()).ok()
+    }
+}
+
+impl Meant<'_> for bool {
+    fn meant(entry: Entry<'_>, _: Option<DataType>) -> Option<Self> {
+        let number = Number::parse(entry.meant(Wanted::Flag)?.as_bytes()).ok()?;
+        number.to::<u64>().map(|flag| flag == 1)
+    }
+}
+
+impl Meant<'_> for AccessType {
+    fn meant(entry: Entry<'_>, _: Option<DataType>) -> Option<Self> {
+        AccessType::parse(entry.meant(Wanted::Access)?.as_bytes())
+    }
+}
+
+impl Meant<'_> for ObjectCode {
+    fn meant(entry: Entry<'_>, _: Option<DataType>) -> Option<Self> {
+        let number = Number::parse(entry.meant(Wanted::ObjectCode)?.as_bytes()).ok()?;
+        ObjectCode::from_code(number.to()?)
+    }
+}
+
+impl<'a> Meant<'a> for Value<'a> {
+    fn meant(entry: Entry<'a>, data_type: Option<DataType>) -> Option<Self> {
+        let text = entry.meant(Wanted::Value(data_type))?;
+        let value = match data_type {
+            Some(data_type) => Value::parse(data_type, text.as_bytes()).ok()?,
+            None => Value::parse_untyped(text.as_bytes())
+                .or_else(|_| Value::parse(DataType::Unsigned64, text.as_bytes()))
+                .ok()?,
+        };
+        Some(match value {
+            Value::Boolean(value) => Value::Boolean(value),
+            Value::Integer(number) => Value::Integer(number),
+            Value::Formula(formula) => Value::Formula(formula),
+            Value::Real(real) => Value::Real(real),
+            Value::RealBits(bits) => Value::RealBits(bits),
+            Value::Time { days, milliseconds } => Value::Time { days, milliseconds },
+            // The digits as they stand in the file, with what stands between them.
+            Value::Octets(_) => Value::Octets(meant::before_comment(entry.raw())),
+            Value::Text(_) | Value::Bits(_) => return None,
+        })
     }
 }
 
@@ -195,14 +297,20 @@ pub trait Bounded {
     const MAXIMUM: u64;
 }
 
-impl Bounded for u8 {
-    const MAXIMUM: u64 = u8::MAX as u64;
+macro_rules! unsigned {
+    ($($integer:ident)*) => {
+        $(
+            impl Bounded for $integer {
+                const MAXIMUM: u64 = $integer::MAX as u64;
+            }
+
+            impl Meant<'_> for $integer {
+                fn meant(entry: Entry<'_>, _: Option<DataType>) -> Option<Self> {
+                    Number::parse(entry.meant(entry.wanted_number())?.as_bytes()).ok()?.to()
+                }
+            }
+        )*
+    };
 }
 
-impl Bounded for u16 {
-    const MAXIMUM: u64 = u16::MAX as u64;
-}
-
-impl Bounded for u32 {
-    const MAXIMUM: u64 = u32::MAX as u64;
-}
+unsigned! { u8 u16 u32 }

@@ -5,10 +5,12 @@
 //! number; values are read when they are asked for. So nothing that the file says is dropped, every value knows its
 //! place, and a file that claims millions of compact sub-objects costs nothing until somebody asks for them.
 
+mod assumed;
 mod build;
 mod channels;
 mod compact;
 mod compare;
+mod decimal_names;
 mod description;
 mod entry;
 mod identity;
@@ -19,12 +21,14 @@ mod object;
 mod pdo;
 mod section;
 mod topology;
+mod types;
 
+pub use assumed::Assumed;
 pub use channels::{Channel, ChannelOffset, Tool};
 pub use compact::{DictionaryEntry, ImplicitPdo};
 pub use compare::{Difference, same_meaning};
 pub use description::Description;
-pub use entry::{Entry, Field};
+pub use entry::{Entry, Field, Meant};
 pub(crate) use identity::Identity;
 pub use info::{Commissioning, DeviceInfo, FileInfo};
 pub use modules::{Module, ModuleCount, SubExtension};
@@ -32,6 +36,7 @@ pub use object::{Object, SubObject};
 pub use pdo::Pdo;
 pub use section::{ListItem, Section};
 pub use topology::{Topology, TopologyNode};
+pub use types::ResolvedType;
 
 use crate::key::{KEY_NAMES, Key, KeyName};
 use crate::section::SectionKind;
@@ -66,6 +71,8 @@ pub struct Datasheet {
     sub_objects: Vec<SubObjectRecord>,
     /// The first section of every other kind, sorted.
     others: Vec<(SectionKind, u32)>,
+    /// Sections whose names have a decimal sub-index, ascending.
+    decimal_names: Vec<u32>,
     /// Which keys there are, by [`KeyName`].
     keys: [bool; KEY_NAMES],
 }

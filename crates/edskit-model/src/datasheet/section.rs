@@ -2,9 +2,11 @@
 
 use super::{Datasheet, Description, Entry, Field, SectionRecord};
 use crate::key::{Key, KeyName};
+use crate::meant;
 use crate::section::SectionKind;
 use crate::{Line, Span};
 use core::fmt;
+use edskit_types::Index;
 use std::borrow::Cow;
 
 /// One section of the file.
@@ -145,6 +147,24 @@ impl fmt::Debug for Section<'_> {
 pub struct ListItem<'a> {
     /// The number that is its key, from 1 in a correct file.
     pub number: u16,
-    /// The index that it names.
+    /// The index that it names, as written; [`ListItem::meant`] knows better where `0x` was forgotten.
     pub index: Field<'a, u16>,
+}
+
+impl ListItem<'_> {
+    /// The index that is meant: the one that is written, or what the same digits are with `0x`, where only that is a
+    /// described object.
+    pub fn meant(self) -> Option<Index> {
+        self.without_prefix().or_else(|| self.index.known()).map(Index)
+    }
+
+    /// The hexadecimal index, where its `0x` was forgotten.
+    pub(crate) fn without_prefix(self) -> Option<u16> {
+        let sheet = self.index.entry.sheet;
+        let is_described = |index: &u16| sheet.object(Index(*index)).is_some();
+        if self.index.known().as_ref().is_some_and(is_described) {
+            return None;
+        }
+        meant::without_prefix(self.index.entry.raw()).filter(is_described)
+    }
 }

@@ -119,10 +119,15 @@ impl<'a> Value<'a> {
     }
 }
 
-/// Decodes checked pairs of hexadecimal digits.
+/// Decodes pairs of hexadecimal digits, with whatever [`meant`](crate::meant) allows between them: blanks, `0x` and quotes.
 pub fn octets(digits: &[u8]) -> impl Iterator<Item = u8> + '_ {
+    let parts = digits.split(|byte| byte.is_ascii_whitespace() || matches!(byte, b'"' | b'\''));
+    let bare = parts.map(|part| match part {
+        [b'0', b'x' | b'X', digits @ ..] => digits,
+        digits => digits,
+    });
     let digit = |byte: u8| (byte as char).to_digit(16).unwrap_or_default() as u8;
-    digits.chunks_exact(2).map(move |pair| digit(pair[0]) << 4 | digit(pair[1]))
+    bare.flat_map(move |digits| digits.chunks_exact(2).map(move |pair| digit(pair[0]) << 4 | digit(pair[1])))
 }
 
 fn parse_integer(text: &[u8]) -> Result<Value<'_>, ValueError> {
@@ -162,9 +167,20 @@ fn parse_octets(text: &[u8]) -> Result<(), ValueError> {
     Ok(())
 }
 
-/// A time is 48 bits: 28 bits of milliseconds, 4 reserved, 16 bits of days (CiA 301, 7.1.6.5).
+/// The most milliseconds of a time: they have 28 bits.
+const MOST_MILLISECONDS: u32 = 0x0FFF_FFFF;
+
+/// A time is 48 bits: 28 bits of milliseconds, 4 reserved, 16 bits of days (CiA 301, 7.1.6.5). CiA 306 gives no form for it:
+/// files have days and milliseconds with a blank between them, the 48 bits as one number, or the bytes as they are sent.
 fn parse_time(text: &[u8]) -> Result<Value<'_>, ValueError> {
     let error = ValueError::whole(ValueErrorKind::NotTime, text);
+    if let Some(blank) = text.iter().position(u8::is_ascii_whitespace) {
+        let number = |text: &[u8]| Number::parse(text.trim_ascii()).ok();
+        let days = number(&text[..blank]).and_then(Number::to::<u16>).ok_or(error)?;
+        let milliseconds = number(&text[blank..]).and_then(Number::to::<u32>);
+        let milliseconds = milliseconds.filter(|value| *value <= MOST_MILLISECONDS).ok_or(error)?;
+        return Ok(Value::Time { days, milliseconds });
+    }
     let is_octets =
         text.len() == 12 && !matches!(text, [b'0', b'x' | b'X', ..]) && parse_octets(text).is_ok();
     let raw = if is_octets {
@@ -172,7 +188,7 @@ fn parse_time(text: &[u8]) -> Result<Value<'_>, ValueError> {
     } else {
         Number::parse(text).ok().and_then(Number::to::<u64>).filter(|raw| raw >> 48 == 0).ok_or(error)?
     };
-    Ok(Value::Time { days: (raw >> 32) as u16, milliseconds: raw as u32 & 0x0FFF_FFFF })
+    Ok(Value::Time { days: (raw >> 32) as u16, milliseconds: raw as u32 & MOST_MILLISECONDS })
 }
 
 /// Why a text is not the value that it should be, and where in it.

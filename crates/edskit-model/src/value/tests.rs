@@ -63,6 +63,14 @@ fn times_are_48_bits() {
     assert_eq!(parse(DataType::TimeOfDay, "0x000100000002"), time);
     assert_eq!(parse(DataType::TimeDifference, "020000000100"), time);
     assert_eq!(error(DataType::TimeOfDay, "0x1000000000000"), ValueErrorKind::NotTime);
+    let noon = Value::Time { days: 365, milliseconds: 43_200_000 };
+    assert_eq!(parse(DataType::TimeOfDay, "365 43200000"), noon);
+    assert_eq!(parse(DataType::TimeDifference, "0x16D \t 0x2932E00"), noon);
+    let most = Value::Time { days: 65535, milliseconds: 268_435_455 };
+    assert_eq!(parse(DataType::TimeDifference, "65535 268435455"), most);
+    for wrong in ["65536 0", "0 268435456", "-1 0", "1 2 3", "12:30 0", "1 day"] {
+        assert_eq!(error(DataType::TimeOfDay, wrong), ValueErrorKind::NotTime, "{wrong}");
+    }
 }
 
 #[test]

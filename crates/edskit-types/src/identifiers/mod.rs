@@ -11,7 +11,7 @@ mod rules;
 
 pub use conflict::{Conflict, Opponent, conflicts};
 pub use party::{Claim, Party, SdoMessage, SdoRole};
-pub use rules::{IdentifierRules, Restriction};
+pub use rules::{CobIdFault, IdentifierRules, Restriction};
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! What is forbidden besides using one CAN-ID twice.
 
 use super::Claim;
-use crate::CanId;
+use crate::{CanId, CobId};
 use core::fmt;
 
 /// Which CAN-IDs may not be used, and who may share one.
@@ -48,6 +48,30 @@ impl fmt::Display for Restriction {
     }
 }
 
+/// Why a COB-ID cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CobIdFault {
+    /// It has 29 bits, which is not supported.
+    Extended,
+    /// Bits 28 to 11 are not 0, and bit 29 does not say that they belong to the identifier.
+    StrayBits,
+    /// A service that exists cannot have this identifier.
+    Restricted(CanId, Restriction),
+}
+
+/// `the CAN-ID 000h is restricted: 000h (NMT)`.
+impl fmt::Display for CobIdFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Extended => f.write_str("CAN-IDs of 29 bits are not supported"),
+            Self::StrayBits => f.write_str("bits 28 to 11 are not 0"),
+            Self::Restricted(can_id, restriction) => {
+                write!(f, "the CAN-ID {can_id} is restricted: {restriction}")
+            }
+        }
+    }
+}
+
 impl IdentifierRules<'static> {
     /// The restricted CAN-IDs of CiA 301 (7.3.5): no configurable SYNC, TIME, EMCY, PDO or additional SDO may use
     /// them. The standard does not forbid two RPDOs on one CAN-ID.
@@ -79,5 +103,28 @@ impl IdentifierRules<'_> {
     #[must_use]
     pub fn restriction(&self, can_id: CanId) -> Option<Restriction> {
         self.restricted.iter().find(|restriction| restriction.contains(can_id)).copied()
+    }
+
+    /// Why a device cannot use a COB-ID, whoever gives it: a client, a store, or the file. Restrictions hold where bit 31
+    /// says that the service exists.
+    ///
+    /// ```
+    /// use edskit_types::{CobId, CobIdFault, IdentifierRules};
+    /// let fault = |cob_id| IdentifierRules::CIA_301.fault(CobId(cob_id));
+    /// assert_eq!(fault(0).unwrap().to_string(), "the CAN-ID 000h is restricted: 000h (NMT)");
+    /// assert_eq!(fault(0x1181), Some(CobIdFault::StrayBits));
+    /// assert_eq!((fault(0x8000_0000), fault(0x181)), (None, None));
+    /// ```
+    #[must_use]
+    pub fn fault(&self, cob_id: CobId) -> Option<CobIdFault> {
+        if cob_id.is_extended() {
+            return Some(CobIdFault::Extended);
+        }
+        if cob_id.has_stray_bits() {
+            return Some(CobIdFault::StrayBits);
+        }
+        let can_id = cob_id.can_id();
+        let restriction = self.restriction(can_id).filter(|_| cob_id.is_valid())?;
+        Some(CobIdFault::Restricted(can_id, restriction))
     }
 }

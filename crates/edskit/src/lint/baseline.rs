@@ -1,8 +1,10 @@
 //! Findings that a team knows already, so that only new ones are shown.
 
+use crate::files::another_own_file;
 use crate::paths;
 use edskit_lint::{Finding, RuleSet};
 use edskit_model::Datasheet;
+use edskit_model::own_file::OwnFile;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
@@ -75,6 +77,9 @@ impl Baseline {
             }
             _ => format!("{name}: {error}"),
         })?;
+        if let Some(reason) = another_own_file(&text, OwnFile::Baseline) {
+            return Err(format!("{name}: {reason}"));
+        }
         let written: Written =
             serde_json::from_slice(&text).map_err(|error| format!("{name}: this is no baseline: {error}"))?;
         if written.version != VERSION {

@@ -1,13 +1,13 @@
 //! The device as text.
 
 use super::layout;
-use super::view::{DeviceView, EntryView, ObjectView, PdoView, titled};
+use super::view::{DeviceView, EntryView, Further, ObjectView, PdoView, titled};
 use std::io::{self, Write};
 
 /// Columns of a name before it is cut; longer ones are rare and would push everything aside.
 const NAME_WIDTH: usize = 40;
 
-pub(super) fn device(view: &DeviceView, out: &mut dyn Write) -> io::Result<()> {
+pub(super) fn device(view: &DeviceView<'_>, out: &mut dyn Write) -> io::Result<()> {
     let known = |text: &Option<String>| text.clone().unwrap_or_else(|| "?".to_owned());
     writeln!(out, "{} - {}", known(&view.product_name), known(&view.vendor_name))?;
     writeln!(
@@ -46,8 +46,8 @@ pub(super) fn device(view: &DeviceView, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(out, "\nObjects ({})\n", view.objects.len())?;
     table_header(out)?;
-    for object in &view.objects {
-        object_rows(object, out)?;
+    for object in view.objects.differing() {
+        object_rows(&object, out)?;
     }
     if !view.pdos.is_empty() {
         writeln!(out, "\nPDOs ({})", view.pdos.len())?;
@@ -69,6 +69,10 @@ pub(super) fn object(view: &ObjectView, pdo_view: Option<&PdoView>, out: &mut dy
     table_header(out)?;
     for entry in &view.entries {
         entry_row(entry, &format!("{:04X}:{:02X}", entry.index, entry.sub_index), out)?;
+    }
+    // A variable is its only entry.
+    if view.entries.iter().all(|entry| entry.further.lines().next().is_none()) {
+        further(&view.further, out)?;
     }
     match pdo_view {
         Some(view) => pdo(view, out),
@@ -97,7 +101,12 @@ fn object_rows(object: &ObjectView, out: &mut dyn Write) -> io::Result<()> {
     for entry in &object.entries {
         entry_row(entry, &format!("    :{:02X}", entry.sub_index), out)?;
     }
-    Ok(())
+    further(&object.further, out)
+}
+
+/// What few sections say: one line each.
+fn further(further: &Further, out: &mut dyn Write) -> io::Result<()> {
+    further.lines().try_for_each(|(key, value)| writeln!(out, "{:<9}{key}: {value}", ""))
 }
 
 fn entry_row(entry: &EntryView, place: &str, out: &mut dyn Write) -> io::Result<()> {
@@ -118,10 +127,11 @@ fn entry_row(entry: &EntryView, place: &str, out: &mut dyn Write) -> io::Result<
         "{place:<9}{:<NAME_WIDTH$} {:<16}{:<7}{:<5}{value}",
         shortened(&name),
         entry.data_type.as_deref().unwrap_or("?"),
-        entry.access.unwrap_or("?"),
+        entry.access.as_deref().unwrap_or("?"),
         if entry.mappable { "yes" } else { "-" },
     );
-    writeln!(out, "{}", row.trim_end())
+    writeln!(out, "{}", row.trim_end())?;
+    further(&entry.further, out)
 }
 
 fn pdo(view: &PdoView, out: &mut dyn Write) -> io::Result<()> {

@@ -2,6 +2,7 @@
 
 mod human;
 mod layout;
+mod meant;
 mod view;
 
 use crate::cli::{ShowArguments, ShowFormat};
@@ -19,8 +20,18 @@ pub(crate) fn run(arguments: &ShowArguments, streams: &mut Streams) -> io::Resul
     let name = arguments.file.to_string_lossy();
     let sheet = files::read_datasheet(&arguments.file, streams)?;
     if is_no_device(&sheet) {
-        streams.complain(format_args!("{name}: this is no EDS or DCF; `edskit lint` says what it is"));
+        let reason = files::own_file(sheet.document().to_bytes());
+        let reason =
+            reason.unwrap_or_else(|| "this is no EDS or DCF; `edskit lint` says what it is".to_owned());
+        streams.complain(format_args!("{name}: {reason}"));
         return Ok(Exit::Failed);
+    }
+    let assumed = meant::views(&sheet);
+    if arguments.meant {
+        return print(&assumed, arguments.format, streams, |view, out| meant::write(view, &name, out));
+    }
+    if let Some(line) = meant::summary(&assumed) {
+        writeln!(streams.stderr, "{}: {line}", printable::line(&name))?;
     }
     let viewer = Viewer { sheet: &sheet, node_id: arguments.node_id.or(sheet.commissioned_node_id()) };
     let Some(place) = arguments.place else {

@@ -1,11 +1,14 @@
 //! What `show` knows of a device, ready to be printed or turned into JSON.
 
-use edskit_model::{Datasheet, Description, DictionaryEntry, Entry, Object, Pdo, SectionKind, Value};
-use edskit_types::{DataType, Index, MappingEntry, NodeId, PdoDirection, SubIndex};
-use serde::Serialize;
+use edskit_model::{
+    Datasheet, Description, DictionaryEntry, Entry, Field, KeyName, Object, Pdo, SectionKind, Value, octets,
+};
+use edskit_types::{DataType, Index, MappingEntry, NodeId, PdoDirection};
+use serde::{Serialize, Serializer};
 use std::borrow::Cow;
 
 /// Reads a datasheet for people.
+#[derive(Clone, Copy)]
 pub(super) struct Viewer<'a> {
     pub(super) sheet: &'a Datasheet,
     /// Evaluates formulas where there is one.
@@ -13,7 +16,7 @@ pub(super) struct Viewer<'a> {
 }
 
 #[derive(Serialize)]
-pub(super) struct DeviceView {
+pub(super) struct DeviceView<'a> {
     pub(super) vendor_name: Option<String>,
     pub(super) vendor_number: Option<String>,
     pub(super) product_name: Option<String>,
@@ -33,10 +36,37 @@ pub(super) struct DeviceView {
     pub(super) bit_rate: Option<u16>,
     /// Module types that the file describes
     pub(super) modules: Vec<String>,
-    pub(super) objects: Vec<ObjectView>,
+    pub(super) objects: Objects<'a>,
     pub(super) pdos: Vec<PdoView>,
     /// PDOs that exist only through CompactPDO: received, transmitted
     pub(super) implicit_pdos: (usize, usize),
+}
+
+/// The objects of a device, made one after the other: a short file can claim millions of compact entries.
+pub(super) struct Objects<'a> {
+    viewer: Viewer<'a>,
+    lists: Vec<(u16, &'static str)>,
+}
+
+impl Objects<'_> {
+    pub(super) fn len(&self) -> usize {
+        self.viewer.sheet.objects().len()
+    }
+
+    /// Each object with the entries that differ from others.
+    pub(super) fn differing(&self) -> impl Iterator<Item = ObjectView> {
+        self.viewed(|entry| !entry.is_like_others())
+    }
+
+    fn viewed(&self, wanted: fn(&DictionaryEntry<'_>) -> bool) -> impl Iterator<Item = ObjectView> {
+        self.viewer.sheet.objects().map(move |object| self.viewer.listed_object(object, &self.lists, wanted))
+    }
+}
+
+impl Serialize for Objects<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.viewed(|_| true))
+    }
 }
 
 #[derive(Serialize)]
@@ -46,9 +76,52 @@ pub(super) struct ObjectView {
     pub(super) object_code: Option<&'static str>,
     /// Which list names the object
     pub(super) list: Option<&'static str>,
-    /// How many equal entries CompactSubObj stands for; they are listed only when the object is asked for alone
+    /// How many equal entries CompactSubObj stands for
     pub(super) compact: u8,
+    #[serde(flatten)]
+    pub(super) further: Further,
     pub(super) entries: Vec<EntryView>,
+}
+
+/// What few sections say, as written.
+#[derive(Serialize, Default)]
+pub(super) struct Further {
+    /// The file of a DCF that takes what is read from a DOMAIN
+    upload_file: Option<String>,
+    /// The file of a DCF that is written to a DOMAIN
+    download_file: Option<String>,
+    /// The reference designator
+    param_refd: Option<String>,
+    obj_flags: Option<String>,
+    srdo_mapping: Option<String>,
+    inverted_srad: Option<String>,
+}
+
+impl Further {
+    fn of(description: Description<'_>) -> Self {
+        let written = |key| description.filled(key).map(|entry| entry.text().into_owned());
+        Self {
+            upload_file: written(KeyName::UploadFile),
+            download_file: written(KeyName::DownloadFile),
+            param_refd: written(KeyName::ParamRefd),
+            obj_flags: written(KeyName::ObjFlags),
+            srdo_mapping: written(KeyName::SrdoMapping),
+            inverted_srad: written(KeyName::InvertedSrad),
+        }
+    }
+
+    /// Keys with their values.
+    pub(super) fn lines(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let all = [
+            (KeyName::UploadFile, &self.upload_file),
+            (KeyName::DownloadFile, &self.download_file),
+            (KeyName::ParamRefd, &self.param_refd),
+            (KeyName::ObjFlags, &self.obj_flags),
+            (KeyName::SrdoMapping, &self.srdo_mapping),
+            (KeyName::InvertedSrad, &self.inverted_srad),
+        ];
+        all.into_iter().filter_map(|(key, value)| Some((key.spelling(), value.as_deref()?)))
+    }
 }
 
 #[derive(Serialize)]
@@ -58,7 +131,7 @@ pub(super) struct EntryView {
     pub(super) name: String,
     pub(super) denotation: Option<String>,
     pub(super) data_type: Option<String>,
-    pub(super) access: Option<&'static str>,
+    pub(super) access: Option<String>,
     pub(super) mappable: bool,
     /// As written
     pub(super) default: Option<String>,
@@ -68,6 +141,8 @@ pub(super) struct EntryView {
     pub(super) evaluated: Option<i128>,
     pub(super) low_limit: Option<String>,
     pub(super) high_limit: Option<String>,
+    #[serde(flatten)]
+    pub(super) further: Further,
 }
 
 #[derive(Serialize)]
@@ -106,8 +181,8 @@ const LISTS: [(SectionKind, &str); 3] = [
     (SectionKind::ManufacturerObjects, "manufacturer"),
 ];
 
-impl Viewer<'_> {
-    pub(super) fn device(&self) -> DeviceView {
+impl<'a> Viewer<'a> {
+    pub(super) fn device(&self) -> DeviceView<'a> {
         let sheet = self.sheet;
         let text = |entry: Option<Entry<'_>>| entry.map(|entry| entry.text().into_owned());
         let info = sheet.device_info();
@@ -115,10 +190,9 @@ impl Viewer<'_> {
         let commissioning = sheet.commissioning();
         let directions = [PdoDirection::Receive, PdoDirection::Transmit];
         let module_name = |module: edskit_model::Module<'_>| {
-            let name = module.info().and_then(|info| info.filled(edskit_model::KeyName::ProductName));
+            let name = module.info().and_then(|info| info.filled(KeyName::ProductName));
             text(name).unwrap_or_else(|| format!("module {}", module.number()))
         };
-        let lists = self.lists();
         DeviceView {
             vendor_name: text(info.and_then(|info| info.vendor_name())),
             vendor_number: info.and_then(|info| info.vendor_number()).map(|field| field.text().into_owned()),
@@ -142,7 +216,7 @@ impl Viewer<'_> {
             node_name: text(commissioning.and_then(|commissioning| commissioning.node_name())),
             bit_rate: commissioning.and_then(|commissioning| commissioning.baudrate()?.known()),
             modules: sheet.modules().map(module_name).collect(),
-            objects: sheet.objects().map(|object| self.listed_object(object, &lists, false)).collect(),
+            objects: Objects { viewer: *self, lists: self.lists() },
             pdos: directions
                 .iter()
                 .flat_map(|&direction| sheet.pdos(direction))
@@ -157,7 +231,7 @@ impl Viewer<'_> {
 
     /// One object with every entry, compact ones too.
     pub(super) fn object(&self, object: Object<'_>) -> ObjectView {
-        self.listed_object(object, &self.lists(), true)
+        self.listed_object(object, &self.lists(), |_| true)
     }
 
     /// The PDO that a communication or mapping parameter belongs to.
@@ -178,21 +252,24 @@ impl Viewer<'_> {
     fn lists(&self) -> Vec<(u16, &'static str)> {
         let named = LISTS.iter().filter_map(|&(kind, name)| Some((self.sheet.section(kind)?, name)));
         let items = named.flat_map(|(section, name)| {
-            section.items().filter_map(move |item| Some((item.index.known()?, name)))
+            section.items().filter_map(move |item| Some((item.meant()?.0, name)))
         });
         let mut lists: Vec<_> = items.collect();
         lists.sort_unstable();
         lists
     }
 
-    fn listed_object(&self, object: Object<'_>, lists: &[(u16, &'static str)], all: bool) -> ObjectView {
+    /// An object with those of its entries that are wanted.
+    fn listed_object(
+        &self,
+        object: Object<'_>,
+        lists: &[(u16, &'static str)],
+        wanted: fn(&DictionaryEntry<'_>) -> bool,
+    ) -> ObjectView {
         let index = object.index().0;
         let compact = object.compact_count();
-        let entries: Vec<EntryView> = if all || compact == 0 {
-            object.dictionary_entries().map(|entry| self.entry(entry)).collect()
-        } else {
-            object.sub_objects().filter_map(|sub| self.described(object, sub.sub_index())).collect()
-        };
+        let entries: Vec<EntryView> =
+            object.dictionary_entries().filter(wanted).map(|entry| self.entry(entry)).collect();
         ObjectView {
             index,
             name: name_of(object.description()),
@@ -202,12 +279,9 @@ impl Viewer<'_> {
                 .ok()
                 .map(|position| lists[position].1),
             compact,
+            further: Further::of(object.description()),
             entries,
         }
-    }
-
-    fn described(&self, object: Object<'_>, sub_index: SubIndex) -> Option<EntryView> {
-        object.dictionary_entry(sub_index).map(|entry| self.entry(entry))
     }
 
     fn entry(&self, entry: DictionaryEntry<'_>) -> EntryView {
@@ -217,15 +291,21 @@ impl Viewer<'_> {
             let entry = description?.filled(key)?;
             Some(entry.text().into_owned())
         };
+        // A value that is written wrongly is shown as it is read.
+        let typed = |field: Option<Field<'_, Value<'_>>>| {
+            let field = field?;
+            Some(match (field.value, field.known()) {
+                (Err(_), Some(value)) => plain(value, data_type),
+                _ => field.text().into_owned(),
+            })
+        };
+        let [low_limit, high_limit] = entry.limits().map(typed);
         let from_compact = |value: Option<Value<'_>>| value.map(|value| plain(value, data_type));
         let (default, value) = match description {
-            Some(_) => {
-                (written(edskit_model::KeyName::DefaultValue), written(edskit_model::KeyName::ParameterValue))
-            }
+            Some(description) => (typed(description.default_value()), typed(description.parameter_value())),
             None => {
-                let default = from_compact(entry.default_value());
-                let value = from_compact(entry.value());
-                (default.clone(), value.filter(|value| Some(value) != default.as_ref()))
+                let listed = entry.value_field().filter(|field| field.entry.key().name == KeyName::Item);
+                (from_compact(entry.default_value()), typed(listed))
             }
         };
         let evaluated = match (entry.value(), data_type) {
@@ -234,7 +314,7 @@ impl Viewer<'_> {
         };
         let data_type_text = match data_type {
             Some(data_type) => Some(data_type.name().to_owned()),
-            None => written(edskit_model::KeyName::DataType),
+            None => written(KeyName::DataType),
         };
         EntryView {
             index: entry.index.0,
@@ -242,13 +322,14 @@ impl Viewer<'_> {
             name: entry.name().into_owned(),
             denotation: entry.denotation().map(|text| text.into_owned()),
             data_type: data_type_text,
-            access: entry.access().map(|access| access.as_str()),
+            access: entry.access().map(|access| access.to_string()).or_else(|| written(KeyName::AccessType)),
             mappable: entry.is_mappable(),
             default,
             value,
             evaluated,
-            low_limit: written(edskit_model::KeyName::LowLimit),
-            high_limit: written(edskit_model::KeyName::HighLimit),
+            low_limit,
+            high_limit,
+            further: description.map(Further::of).unwrap_or_default(),
         }
     }
 
@@ -332,9 +413,8 @@ fn plain(value: Value<'_>, data_type: Option<DataType>) -> String {
             .and_then(|data_type| value.real(data_type))
             .map(|value| value.to_string())
             .unwrap_or_default(),
-        Value::Text(bytes) | Value::Octets(bytes) | Value::Bits(bytes) => {
-            String::from_utf8_lossy(bytes).into_owned()
-        }
+        Value::Octets(digits) => octets(digits).map(|octet| format!("{octet:02X}")).collect(),
+        Value::Text(bytes) | Value::Bits(bytes) => String::from_utf8_lossy(bytes).into_owned(),
         Value::Time { days, milliseconds } => format!("{days} days, {milliseconds} ms"),
     }
 }

@@ -10,6 +10,7 @@ mod identity_structure;
 mod mappable_by_mistake;
 mod no_error_control;
 mod pdo_counts_differ;
+mod run_time_value;
 mod sdo_client_node;
 mod sdo_server_default;
 mod sync_cob_id;
@@ -45,4 +46,5 @@ pub(super) const RULES: &[&Rule] = &[
     &default_differs::DEFAULT_DIFFERS,
     &pdo_counts_differ::PDO_COUNTS_DIFFER,
     &mappable_by_mistake::MAPPABLE_BY_MISTAKE,
+    &run_time_value::RUN_TIME_VALUE,
 ];

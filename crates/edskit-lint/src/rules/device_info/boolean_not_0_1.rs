@@ -1,6 +1,6 @@
-use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
+use edskit_model::meant::value_length;
 use edskit_model::{Entry, Key, Section, SectionKind, Shape};
 use std::collections::HashMap;
 
@@ -70,13 +70,9 @@ fn check_section(section: Section<'_>, report: &mut Report) {
 fn report_flag(entry: Entry<'_>, report: &mut Report) {
     let (key, text) = (entry.key_text(), entry.text());
     let finding = report.add(entry.value_span(), format!("{key} is `{text}`, but a flag is 0 or 1"));
-    let meant = match text.to_ascii_lowercase().as_str() {
-        "yes" | "y" | "true" | "on" => "1",
-        "no" | "n" | "false" | "off" => "0",
-        _ => {
-            finding.help(format!("write `{key}=1` for yes or `{key}=0` for no"));
-            return;
-        }
+    let Some(meant) = entry.flag().known().map(|flag| u8::from(flag).to_string()) else {
+        finding.help(format!("write `{key}=1` for yes or `{key}=0` for no"));
+        return;
     };
     finding
         .help(format!("write `{key}={meant}`"))

@@ -1,7 +1,7 @@
-use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
 use edskit_model::KeyName;
+use edskit_model::meant::value_length;
 
 rule! {
     /// EDSVersion is missing, old, or not of the form `x.y`

@@ -1,7 +1,7 @@
 use super::timestamp::{Date, Time};
-use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
+use edskit_model::meant::value_length;
 use edskit_model::{Entry, KeyName};
 
 rule! {

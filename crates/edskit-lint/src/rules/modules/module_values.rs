@@ -81,7 +81,7 @@ fn check_count(entry: Entry<'_>, report: &mut Report) {
             number(&raw[..semicolon]) == Some(0) && number(&raw[semicolon + 1..]).is_some_and(|bits| bits > 0)
         }
     };
-    if is_understood || crate::inline_comment::value_length(raw).is_some() {
+    if is_understood || edskit_model::meant::value_length(raw).is_some() {
         return;
     }
     report.add(entry.value_span(), format!("Count is `{}`, which says nothing", entry.text())).help(

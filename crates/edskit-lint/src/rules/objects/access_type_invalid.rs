@@ -1,7 +1,7 @@
 use super::structure::belongs_elsewhere;
 use crate::rule::rule;
-use crate::similar::nearest;
 use crate::{Context, Edit, Report, Severity, Variable};
+use edskit_model::meant;
 use edskit_model::{Description, Field, Object, SubObject};
 use edskit_types::AccessType;
 
@@ -57,7 +57,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         Err(_) if belongs_elsewhere(field.entry) => {}
         Err(_) => {
             let finding = report.add(field.span(), format!("`{}` is no access type", field.text()));
-            match meant(&field.text()) {
+            match meant::access(&field.text()) {
                 Some(access) => finding.help(format!("write `{access}`")).unsafe_fix(
                     format!("Write `{access}`"),
                     vec![Edit::replace(field.span(), access.as_str())],
@@ -77,8 +77,9 @@ fn upper_case(context: &Context<'_>, report: &mut Report) {
     let objects = context.sheet.objects().map(Object::description);
     let subs = context.sheet.sub_objects().map(SubObject::description);
     let fields = objects.chain(subs).filter_map(Description::access_type);
+    // Other spellings have findings of their own.
     let mut words: Vec<_> = fields
-        .filter_map(|field| Some((field, field.known()?)))
+        .filter_map(|field| Some((field, field.value.ok()?)))
         .filter(|&(field, access)| !is_in_lower_case(field, access))
         .collect();
     words.sort_by_key(|(field, _)| field.span());
@@ -94,20 +95,6 @@ fn upper_case(context: &Context<'_>, report: &mut Report) {
         .severity(Severity::Warning)
         .help(format!("write `{access}`"))
         .safe_fix("Write lower case", edits);
-}
-
-/// The access type that a word in use elsewhere, or a slip, stands for.
-fn meant(word: &str) -> Option<AccessType> {
-    let letters: String = word.chars().filter(char::is_ascii_alphabetic).collect();
-    match letters.to_ascii_lowercase().as_str() {
-        "r" | "read" | "readonly" => Some(AccessType::Ro),
-        "w" | "write" | "writeonly" => Some(AccessType::Wo),
-        "wr" | "readwrite" => Some(AccessType::Rw),
-        "constant" => Some(AccessType::Const),
-        known if AccessType::parse(known.as_bytes()).is_some() => AccessType::parse(known.as_bytes()),
-        // The other words are too short and too much alike for a guess.
-        slip => nearest(slip, [AccessType::Const.as_str()]).map(|_| AccessType::Const),
-    }
 }
 
 #[cfg(test)]

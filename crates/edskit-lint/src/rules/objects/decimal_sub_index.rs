@@ -1,4 +1,3 @@
-use super::structure::decimal_names;
 use crate::rule::rule;
 use crate::wording::few;
 use crate::{Context, Edit, Report};
@@ -75,29 +74,30 @@ rule! {
 }
 
 fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
-    let Some(names) = decimal_names(object) else { return };
-    let meant: Vec<_> = names.iter().filter(|(number, _)| *number > 9).collect();
-    let Some((first, rest)) = meant.split_first() else { return };
+    let subs = object.sub_objects().filter(|sub| sub.section().has_decimal_sub_index());
+    let named: Vec<_> = subs.filter_map(|sub| Some((sub, sub.section().kind().canonical_name()?))).collect();
+    let Some(((first, right), rest)) = named.split_first() else { return };
     let index = object.index();
-    let name = |number: u8| format!("{:X}sub{number:X}", index.0);
-    let message = format!(
-        "`[{}]` is sub-index {} of {index}, but the count of {} fits only if it is {}",
-        first.1.name(),
-        first.1.sub_index(),
-        names.last().map_or(0, |(number, _)| *number),
-        first.0
-    );
-    let finding = report.add(first.1.section().span(), message);
-    finding.here(format!("`[{}]` is meant", name(first.0)));
-    for (number, sub) in rest.iter().take(crate::wording::FEW) {
-        finding.label(sub.section().span(), format!("`[{}]` is meant", name(*number)));
+    let name = first.section().name();
+    let digits = name.to_ascii_lowercase().rsplit_once("sub").map(|(_, digits)| digits.to_owned());
+    let read = match digits {
+        Some(digits) if digits.len() <= 2 => format!("sub-index {digits}h of {index}"),
+        _ => format!("no sub-index of {index}"),
+    };
+    let count = named.last().map_or(0, |(sub, _)| sub.sub_index().0);
+    let meant = first.sub_index().0;
+    let message = format!("`[{name}]` is {read}, but the count of {count} fits only if it is {meant}");
+    let finding = report.add(first.section().span(), message);
+    finding.here(format!("`[{right}]` is meant"));
+    for (sub, name) in rest.iter().take(crate::wording::FEW) {
+        finding.label(sub.section().span(), format!("`[{name}]` is meant"));
     }
-    let right = meant.iter().map(|(number, _)| format!("`[{}]`", name(*number)));
-    finding.help(format!("sub-indexes in names are hexadecimal: write {}", few(right)));
+    let names = named.iter().map(|(_, name)| format!("`[{name}]`"));
+    finding.help(format!("sub-indices in names are hexadecimal: write {}", few(names)));
     let mut edits: Vec<Edit> =
-        meant.iter().map(|(number, sub)| Edit::replace(sub.section().name_span(), name(*number))).collect();
+        named.iter().map(|(sub, name)| Edit::replace(sub.section().name_span(), name.as_str())).collect();
     edits.sort_by_key(|edit| edit.span);
-    finding.unsafe_fix("Write the sub-indexes in hexadecimal", edits);
+    finding.unsafe_fix("Write the sub-indices in hexadecimal", edits);
 }
 
 #[cfg(test)]

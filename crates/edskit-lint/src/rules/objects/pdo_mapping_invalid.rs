@@ -50,26 +50,13 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         }
         let key = field.entry.key().name.spelling();
         let finding = report.add(field.span(), format!("{key} is `{}` instead of 0 or 1", field.text()));
-        match meant(field.entry.raw()) {
-            Some(flag) => finding
-                .help(format!("write `{key}={flag}`"))
-                .unsafe_fix(format!("Write {flag}"), vec![Edit::replace(field.span(), flag)]),
+        match field.known() {
+            Some(flag) => finding.help(format!("write `{key}={}`", u8::from(flag))).unsafe_fix(
+                format!("Write {}", u8::from(flag)),
+                vec![Edit::replace(field.span(), u8::from(flag).to_string())],
+            ),
             None => finding.help(format!("write `{key}=1` if the object may be mapped, else `{key}=0`")),
         };
-    }
-}
-
-/// The flag that was meant: a word for it (those of XDD files too), or a digit with something behind.
-fn meant(raw: &[u8]) -> Option<&'static str> {
-    const NO: [&str; 5] = ["no", "false", "n", "off", "none"];
-    const YES: [&str; 9] = ["yes", "true", "y", "on", "optional", "default", "tpdo", "rpdo", "both"];
-    let is = |word: &&str| raw.eq_ignore_ascii_case(word.as_bytes());
-    match raw {
-        _ if NO.iter().any(is) => Some("0"),
-        _ if YES.iter().any(is) => Some("1"),
-        [b'0', rest] | [b'"' | b'\'', b'0', rest] if rest.is_ascii_punctuation() => Some("0"),
-        [b'1', rest] | [b'"' | b'\'', b'1', rest] if rest.is_ascii_punctuation() => Some("1"),
-        _ => None,
     }
 }
 

@@ -1,8 +1,8 @@
 //! What several rules ask about the structure of an object.
 
-use crate::inline_comment;
 use crate::{Context, Variable};
-use edskit_model::{Entry, Field, Object, Section, SectionKind, SubObject, Value};
+use edskit_model::meant::value_length;
+use edskit_model::{Entry, Object, Section, SectionKind, SubObject};
 use edskit_types::{Index, ObjectCode, SubIndex};
 
 /// Sub-index FFh, which holds the structure of the object and counts nowhere.
@@ -30,40 +30,6 @@ pub(super) fn elements<'a>(
 /// The described sub-index 00h.
 pub(super) fn sub0(object: Object<'_>) -> Option<SubObject<'_>> {
     object.sub_objects().next().filter(|sub| sub.sub_index().0 == 0)
-}
-
-/// The sub-objects of an object whose names count on in decimal from `sub9` to `sub10`, each with the number that its
-/// name is in decimal; `None` where sub-index 00h does not say that this is how they are meant.
-pub(crate) fn decimal_names(object: Object<'_>) -> Option<Vec<(u8, SubObject<'_>)>> {
-    let subs = counted_subs(object);
-    if subs.len() <= 10 {
-        return None;
-    }
-    let mut names = Vec::with_capacity(subs.len());
-    for sub in subs {
-        names.push((decimal_name(sub)?, sub));
-    }
-    names.sort_by_key(|(number, _)| *number);
-    let is_counted_on = names.iter().enumerate().all(|(due, (number, _))| usize::from(*number) == due);
-    let (highest, _) = names.last()?;
-    let count = sub0(object)?;
-    // A count that changes while the device runs has its largest value as a limit.
-    let mut counted =
-        [count.parameter_value(), count.default_value(), count.high_limit()].into_iter().flatten();
-    let is_meant = |field: Field<'_, Value<'_>>| matches!(field.value, Ok(Value::Integer(number)) if number.value() == i128::from(*highest));
-    (is_counted_on && counted.any(is_meant)).then_some(names)
-}
-
-/// The number at the end of a sub-object's name, read in decimal.
-fn decimal_name(sub: SubObject<'_>) -> Option<u8> {
-    let section = sub.section();
-    let name = section.name_span().slice(section.sheet().document().to_bytes());
-    let digits = name.iter().rev().take_while(|byte| byte.is_ascii_digit()).count();
-    let number = &name[name.len() - digits..];
-    // `sub0A` and `sub0x1` are hexadecimal for sure.
-    let is_whole = name[..name.len() - digits].to_ascii_lowercase().ends_with(b"sub");
-    let is_plain = number.len() == 1 || number.first() != Some(&b'0');
-    std::str::from_utf8(number).ok()?.parse().ok().filter(|_| is_whole && is_plain)
 }
 
 /// Whether the section must say `DataType` and `AccessType`: it holds a value of its own, or
@@ -103,7 +69,7 @@ pub(super) fn fixed_code(index: Index) -> Option<ObjectCode> {
 /// Whether a value is left to another rule: SYN012 for text behind it, SYN020 to SYN022 for a formula.
 pub(super) fn belongs_elsewhere(entry: Entry<'_>) -> bool {
     let raw = entry.raw();
-    inline_comment::value_length(raw).is_some() || raw.contains(&b'$')
+    value_length(raw).is_some() || raw.contains(&b'$')
 }
 
 /// The object of a section that is named like a sub-object with a sub-index above FFh (OBJ027).

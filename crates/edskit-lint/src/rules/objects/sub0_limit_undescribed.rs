@@ -77,7 +77,7 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let Some(sub0) = sub0(object) else { return };
     let Some(last) = counted_subs(object).next_back().filter(|last| last.sub_index().0 > 0) else { return };
     let Some(limit) = sub0.high_limit() else { return };
-    let Ok(Value::Integer(number)) = limit.value else { return };
+    let Some(Value::Integer(number)) = limit.known() else { return };
     // FEh is the last sub-index there can be, and 7Fh and FFh are ends of data types: they mean no limit.
     let Some(possible) = number.to::<u8>().filter(|&possible| possible < 0xFE && possible != 0x7F) else {
         return;

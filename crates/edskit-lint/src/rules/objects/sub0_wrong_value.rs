@@ -1,4 +1,4 @@
-use super::structure::{counted_subs, decimal_names, elements, goes_beyond_ff, sub0};
+use super::structure::{counted_subs, elements, goes_beyond_ff, sub0};
 use crate::edits::number_like;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
@@ -80,7 +80,7 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let Some(last) = counted_subs(object).next_back() else { return };
     let highest = last.sub_index().0;
     let Some(field) = sub0.default_value() else { return };
-    let Ok(Value::Integer(number)) = field.value else { return };
+    let Some(Value::Integer(number)) = field.known() else { return };
     // In a DCF the device has the configured value, whatever others of its kind have.
     let configured = sub0.parameter_value().and_then(Field::known);
     let is_highest =
@@ -94,7 +94,6 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
         || sub0.access().is_none_or(|access| access.is_writable())
         || limit_covers(sub0.description(), highest)
         || goes_beyond_ff(object)
-        || decimal_names(object).is_some()
     {
         return;
     }
@@ -148,7 +147,7 @@ fn widened_limits(sub0: Description<'_>, highest: u8) -> impl Iterator<Item = Ed
 
 /// Whether limits say that the value moves up to at least what is described. The whole range of UNSIGNED8 says nothing.
 fn limit_covers(sub0: Description<'_>, highest: u8) -> bool {
-    let Some(Ok(Value::Integer(limit))) = sub0.high_limit().map(|field| field.value) else { return false };
+    let Some(Value::Integer(limit)) = sub0.high_limit().and_then(Field::known) else { return false };
     (i128::from(highest)..0xFE).contains(&limit.value())
 }
 

@@ -1,6 +1,5 @@
 use crate::pdos::{DescribedPdo, MOST_ENTRIES};
 use crate::rule::rule;
-use crate::rules::objects::structure::decimal_names;
 use crate::{Context, Report};
 
 rule! {
@@ -76,10 +75,6 @@ fn check(context: &Context<'_>, report: &mut Report) {
 
 fn check_pdo(pdo: &DescribedPdo<'_>, report: &mut Report) {
     let Some(mapping) = pdo.mapping.filter(|mapping| mapping.compact_count() == 0) else { return };
-    // Names in decimal are the matter of OBJ028.
-    if decimal_names(mapping).is_some() {
-        return;
-    }
     let described = |sub_index: u8| (1..=MOST_ENTRIES).contains(&sub_index);
     let mut last = None;
     for sub in mapping.sub_objects().filter(|sub| described(sub.sub_index().0)) {

@@ -1,6 +1,5 @@
 use crate::pdos::{DescribedPdo, Mapped, Target};
 use crate::rule::rule;
-use crate::rules::objects::structure::decimal_names;
 use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
 use edskit_model::{Object, SectionKind};
@@ -125,10 +124,9 @@ fn check_entry(context: &Context<'_>, pdo: &DescribedPdo<'_>, mapped: &Mapped<'_
     }
 }
 
-/// Whether the sub-object is described under a name that another rule reports: misspelt, or in decimal (OBJ028).
+/// Whether the sub-object is described under a misspelt name, which another rule reports.
 fn is_named_otherwise(context: &Context<'_>, object: Object<'_>, sub_index: SubIndex) -> bool {
-    let in_decimal = || decimal_names(object).is_some_and(|names| usize::from(sub_index.0) < names.len());
-    lost_header::hides(context, SectionKind::SubObject(object.index(), sub_index)) || in_decimal()
+    lost_header::hides(context, SectionKind::SubObject(object.index(), sub_index))
 }
 
 /// Whether an index belongs to network variables, which a programming system makes and no EDS describes.

@@ -1,5 +1,4 @@
 use crate::rule::rule;
-use crate::rules::objects::structure::decimal_names;
 use crate::{Context, Report, Variable};
 use edskit_types::{Index, SubIndex};
 
@@ -69,10 +68,6 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         return;
     }
     let Some(object) = context.sheet.object(variable.index) else { return };
-    // Names in decimal are the matter of OBJ028.
-    if decimal_names(object).is_some() {
-        return;
-    }
     for prescription in variable.prescriptions {
         let Some(highest) = prescription.object.highest else { continue };
         let beyond = object.sub_objects().find(|sub| sub.sub_index().0 > highest && sub.sub_index().0 < 0xFF);

@@ -1,10 +1,9 @@
 //! Values that depend on the node-ID, or are meant to: `$NODEID+0x180`.
 
-use super::{slips, typed};
+use super::typed;
 use crate::Context;
-use crate::inline_comment::value_length;
-use crate::similar::nearest;
-use edskit_model::{Entry, Formula, Number, Shape};
+use edskit_model::meant::{formula, is_hexadecimal, value_length};
+use edskit_model::{Entry, Formula, Shape};
 
 /// Where something that is meant as a formula stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,8 +41,8 @@ fn place(entry: Entry<'_>) -> Option<Place> {
         Shape::Value => {
             let is_integer = entry.section().and_then(typed::data_type).map(|known| known.is_integer());
             let is_meant = match is_integer {
-                Some(is_integer) => is_integer && (dollar || meant(raw).is_some()),
-                None => meant(raw).is_some(),
+                Some(is_integer) => is_integer && (dollar || formula(raw).is_some()),
+                None => formula(raw).is_some(),
             };
             is_meant.then_some(Place::Value)
         }
@@ -51,82 +50,11 @@ fn place(entry: Entry<'_>) -> Option<Place> {
     }
 }
 
-/// Whether the text is a hexadecimal number as some assemblers write it: `$1A`. It is a number, not a formula.
-pub(super) fn is_hexadecimal(raw: &[u8]) -> bool {
-    matches!(raw, [b'$', digits @ ..] if !digits.is_empty() && digits.iter().all(u8::is_ascii_hexdigit))
-}
-
-/// The formula that a text is, or was meant to be where its variable or a number is misspelt.
-pub(super) fn meant(raw: &[u8]) -> Option<Formula> {
-    let text = std::str::from_utf8(raw).ok()?;
-    let terms = text.split('+').map(|term| {
-        let term = term.trim();
-        if is_node_id(term) {
-            Some("$NODEID".to_owned())
-        } else if Number::parse(term.as_bytes()).is_ok() {
-            Some(term.to_owned())
-        } else {
-            slips::of_number(term.as_bytes()).filter(|slip| slip.certain).map(|slip| slip.number)
-        }
-    });
-    Formula::parse(terms.collect::<Option<Vec<_>>>()?.join("+").as_bytes()).ok()
-}
-
-/// Whether a term is the variable, or the variable misspelt: `{NodeID}`, `NODE_ID`, `$NODE`.
-fn is_node_id(term: &str) -> bool {
-    // Longer words are something else, and this bounds the work.
-    if term.len() > 16 {
-        return false;
-    }
-    let is_decoration =
-        |c: char| matches!(c, '$' | '{' | '}' | '<' | '>' | '(' | ')' | '[' | ']' | '%' | '_' | ' ');
-    let bare = term.trim_matches(is_decoration);
-    let word: String = bare.chars().filter(|c| !matches!(c, '_' | '-' | ' ')).collect();
-    if word.eq_ignore_ascii_case("NODEID") {
-        return !bare.starts_with('-') && !bare.ends_with('-');
-    }
-    let marked = term.starts_with('$') || (term.starts_with('{') && term.ends_with('}'));
-    let is_like_it = || word.eq_ignore_ascii_case("NODE") || nearest(&word, ["NODEID"]).is_some();
-    marked && word.bytes().all(|byte| byte.is_ascii_alphabetic()) && is_like_it()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::FileKind;
     use edskit_model::Datasheet;
-
-    #[test]
-    fn misspelt_formulas_are_understood() {
-        for text in [
-            "$NODEID+0x180",
-            "NODEID+0x180",
-            "{NODEID}+0x180",
-            "$NODE_ID+0x180",
-            "$NODE+0x180",
-            "$NODIED + 180h",
-            "Node-ID+0x180",
-            "0x180+<NodeId>",
-            "${NODEID}+$180",
-        ] {
-            assert_eq!(meant(text.as_bytes()).map(|formula| formula.offset()), Some(0x180), "{text}");
-        }
-        for text in [
-            "",
-            "$",
-            "0x180",
-            "NODE+0x180",
-            "$NODEID*2",
-            "$NODEID-1",
-            "-NODEID",
-            "$NODEID1",
-            "Node 5",
-            "$5",
-            "$DCF",
-        ] {
-            assert_eq!(meant(text.as_bytes()), None, "{text}");
-        }
-    }
 
     #[test]
     fn places_depend_on_key_and_type() {

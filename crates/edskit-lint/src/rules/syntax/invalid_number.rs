@@ -1,7 +1,7 @@
-use super::{formulas, lost_header, slips, typed};
-use crate::inline_comment::value_length;
+use super::{lost_header, typed};
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
+use edskit_model::meant::{self, Slip, Wanted, value_length};
 use edskit_model::{Entry, KeyName, Number, NumberError, NumberErrorKind, Section, SectionKind, Shape};
 use edskit_types::DataType;
 
@@ -116,7 +116,7 @@ fn unsigned(context: &Context<'_>, entry: Entry<'_>, bits: u8, report: &mut Repo
 fn value(context: &Context<'_>, section: Section<'_>, entry: Entry<'_>, report: &mut Report) {
     let Err(error) = Number::parse(entry.raw()) else { return };
     let is_integer = || typed::data_type(section).is_some_and(DataType::is_integer);
-    let is_sum = || entry.raw().contains(&b'+') && formulas::meant(entry.raw()).is_some();
+    let is_sum = || entry.raw().contains(&b'+') && meant::formula(entry.raw()).is_some();
     if is_integer() && !is_owned_elsewhere(context, entry) && !is_sum() {
         not_a_number(context, entry, error, report);
     }
@@ -127,7 +127,7 @@ fn is_owned_elsewhere(context: &Context<'_>, entry: Entry<'_>) -> bool {
     let raw = entry.raw();
     raw.is_empty()
         || value_length(raw).is_some()
-        || (raw.contains(&b'$') && !formulas::is_hexadecimal(raw))
+        || (raw.contains(&b'$') && !meant::is_hexadecimal(raw))
         || (raw.ends_with(b"]") && lost_header::on_line(context, entry.line_number()).is_some())
 }
 
@@ -141,22 +141,27 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
         _ => value,
     };
     let key = entry.key_text();
-    if entry.key().name == KeyName::DataType
-        && let Some(known) =
-            DataType::ALL.iter().find(|known| known.name().as_bytes().eq_ignore_ascii_case(raw))
+    let wanted = match entry.key().name {
+        KeyName::DataType => Wanted::DataType,
+        KeyName::Item => Wanted::Index,
+        _ => Wanted::Number,
+    };
+    let slip = entry.slip(wanted);
+    if wanted == Wanted::DataType
+        && raw.first().is_some_and(u8::is_ascii_alphabetic)
+        && let Some(Slip { text: number, certain: true, .. }) = &slip
     {
-        let number = format!("0x{:04X}", known.index().0);
         report
             .add(
                 value,
                 format!("`{key}={}` is not a number: a data type is given by its index", entry.text()),
             )
             .help(format!("write `{key}={number}`"))
-            .unsafe_fix(format!("Write `{number}`"), vec![Edit::replace(value, number)]);
+            .unsafe_fix(format!("Write `{number}`"), vec![Edit::replace(value, number.clone())]);
         return;
     }
     let finding = report.add(wrong, format!("`{key}={}` is not a number: {error}", entry.text()));
-    if let Some(formula) = formulas::meant(raw) {
+    if let Some(formula) = meant::formula(raw) {
         finding
             .help(format!("write `{key}={formula}` if the node-ID is meant"))
             .unsafe_fix(format!("Write `{formula}`"), vec![Edit::replace(value, formula.to_string())]);
@@ -166,17 +171,11 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
         finding.help("fill in the number: this is the blank of a form");
         return;
     }
-    let Some(mut slip) = slips::of_number(raw) else {
+    let Some(slip) = slip else {
         finding.help("write a decimal number, or a hexadecimal one such as `0x1A`");
         return;
     };
-    // An index is hexadecimal, whatever else its digits may look like.
-    let is_index = matches!(entry.key().name, KeyName::Item | KeyName::DataType);
-    if is_index && let Some(other) = slip.other.take_if(|other| other.starts_with("0x")) {
-        let reason = "hexadecimal numbers begin with `0x`";
-        slip = slips::Slip { number: other, reason, certain: raw.len() == 4, other: None };
-    }
-    let number = &slip.number;
+    let number = &slip.text;
     if raw.iter().all(u8::is_ascii_digit) {
         finding.help(format!("write `{number}`, or `0x{}` if that was meant", context.sheet.text(value)));
     } else if let Some(other) = &slip.other {
@@ -185,7 +184,7 @@ fn not_a_number(context: &Context<'_>, entry: Entry<'_>, error: NumberError, rep
         finding.help(format!("write `{key}={number}`; {}", slip.reason));
     }
     if slip.certain {
-        finding.unsafe_fix(format!("Write `{number}`"), vec![Edit::replace(value, slip.number)]);
+        finding.unsafe_fix(format!("Write `{number}`"), vec![Edit::replace(value, slip.text)]);
     }
 }
 
@@ -249,7 +248,7 @@ mod tests {
         let value = |value: &str| format!("[2000]\nDataType=7\nDefaultValue={value}\n");
         assert_eq!(
             help(&value("1e3")),
-            "write `DefaultValue=1000`, or `0x1e3` if that was meant; integers have no exponent"
+            "write `DefaultValue=1000`, or `0x1e3` if that was meant; an integer has no exponent"
         );
         assert_eq!(fixed(&INVALID_NUMBER, &value("0o17")), value("15"));
         assert_eq!(fixed(&INVALID_NUMBER, &value("1e3")), value("1e3"), "nobody can be sure");

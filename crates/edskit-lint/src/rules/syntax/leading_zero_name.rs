@@ -5,11 +5,12 @@ use edskit_model::{Section, SectionKind};
 use std::collections::HashSet;
 
 rule! {
-    /// A section's name has zeros too many, or `0x`
+    /// A section's name is not just the numbers of the object
     ///
     /// ## What it does
-    /// Reports section names whose numbers are written with leading zeros or `0x`. An index below 1000h that is filled
-    /// up to four digits is left alone, because python-canopen needs four of them.
+    /// Reports section names of objects and sub-objects whose numbers are written with leading zeros, `0x`, the `h` of the
+    /// manuals, blanks, or another sign that does not belong there. An index below 1000h that is filled up to four digits
+    /// is left alone, because python-canopen needs four of them.
     ///
     /// ## Why is this bad
     /// Names are texts, not numbers. Many readers compare them as such, and then do not find the object.
@@ -51,14 +52,19 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for section in odd.filter(|section| !repeated.contains(&section.kind())) {
         let Some(name) = section.kind().canonical_name() else { continue };
         let written = section.name();
-        let lower = written.to_ascii_lowercase();
-        let what = match () {
-            () if lower.contains("0x") => "`0x`",
-            () if lower.ends_with('h') || lower.contains("hsub") => "the `h` of the manuals",
-            () => "a leading zero",
+        let is_misspelt = section.kind().is_misspelt(section.name_span().slice(context.source()));
+        let message = if is_misspelt {
+            format!(
+                "the name `{written}` is more than the number{}",
+                if matches!(section.kind(), SectionKind::SubObject(..)) { "s" } else { "" }
+            )
+        } else if written.to_ascii_lowercase().contains("0x") {
+            format!("the name `{written}` has `0x`")
+        } else {
+            format!("the name `{written}` has a leading zero")
         };
         report
-            .add(section.name_span(), format!("the name `{written}` has {what}"))
+            .add(section.name_span(), message)
             .help(format!("write `[{name}]`"))
             .safe_fix("Write the short name", vec![Edit::replace(section.name_span(), name)]);
     }
@@ -73,6 +79,7 @@ fn is_odd(context: &Context<'_>, section: Section<'_>) -> bool {
     let name = section.name_span().slice(context.source());
     // The second spelling of this section has a rule of its own.
     kind.is_alternative_spelling(name)
+        && !section.has_decimal_sub_index()
         && kind != SectionKind::DeviceCommissioning
         && !is_filled_up(kind, name)
 }
@@ -112,6 +119,22 @@ mod tests {
             fixed(&LEADING_ZERO_NAME, text),
             "[1018sub1]\n[1000]\n[1001]\n[1002sub2]\n[M1ModuleInfo]\n[1600Value]\n[1003subA]\n"
         );
+    }
+
+    #[test]
+    fn signs_that_do_not_belong_into_a_name() {
+        let text = "[1000h]\n[1018 sub1]\n[1018hsub02h]\n[$1001]\n[1003hValue]\n";
+        assert_eq!(
+            findings(&LEADING_ZERO_NAME, text),
+            [
+                "1:2 warning: the name `1000h` is more than the number",
+                "2:2 warning: the name `1018 sub1` is more than the numbers",
+                "3:2 warning: the name `1018hsub02h` is more than the numbers",
+                "4:2 warning: the name `$1001` is more than the number",
+                "5:2 warning: the name `1003hValue` is more than the number",
+            ]
+        );
+        assert_eq!(fixed(&LEADING_ZERO_NAME, text), "[1000]\n[1018sub1]\n[1018sub2]\n[1001]\n[1003Value]\n");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 use super::formulas::{self, Place};
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
+use edskit_model::meant;
 use edskit_model::{Entry, Formula, FormulaError, FormulaErrorKind};
 
 rule! {
@@ -68,7 +69,7 @@ fn bad(entry: Entry<'_>, error: FormulaError, report: &mut Report) {
     };
     let span = value.sub(error.span.start as usize, error.span.len());
     let finding = report.add(if span.is_empty() { value } else { span }, message);
-    match formulas::meant(raw).or_else(|| with_plus(raw, error)) {
+    match meant::formula(raw).or_else(|| with_plus(raw, error)) {
         Some(formula) => {
             finding
                 .help(format!("write `{}={formula}`", entry.key_text()))

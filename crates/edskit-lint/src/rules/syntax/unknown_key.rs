@@ -1,6 +1,6 @@
 use crate::rule::rule;
-use crate::similar::nearest;
 use crate::{Context, Edit, Report, Severity};
+use edskit_model::nearest;
 use edskit_model::{Entry, Key, KeyGroup, KeyName, Section};
 use edskit_types::Index;
 use std::collections::HashMap;

@@ -1,6 +1,6 @@
 use crate::rule::rule;
-use crate::similar::nearest;
 use crate::{Context, Edit, Report, Severity};
+use edskit_model::nearest;
 use edskit_model::{Section, SectionKind};
 use std::collections::HashMap;
 
@@ -230,7 +230,6 @@ mod tests {
             ("Mandatory Objects", "MandatoryObjects"),
             ("Device", "DeviceInfo"),
             ("DeviceCom", "DeviceComissioning"),
-            ("1018 sub1", "1018sub1"),
             ("1018sup1", "1018sub1"),
             ("1003Values", "1003Value"),
             ("M1ModulInfo", "M1ModuleInfo"),

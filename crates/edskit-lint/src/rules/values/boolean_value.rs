@@ -1,6 +1,7 @@
 use super::reading::{Role, each_value, is_owned_elsewhere, name};
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
+use edskit_model::Value;
 use edskit_types::DataType;
 
 rule! {
@@ -53,8 +54,9 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         }
         let message = format!("{} is `{}`, but a BOOLEAN is 0 or 1", name(field.entry), field.text());
         let finding = report.add(field.span(), message);
-        match meant(raw) {
+        match field.known() {
             Some(value) => {
+                let value = u8::from(value == Value::Boolean(true)).to_string();
                 finding.help(format!("write `{value}`"));
                 finding.unsafe_fix(format!("Write {value}"), vec![Edit::replace(field.span(), value)]);
             }
@@ -63,18 +65,6 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
             }
         }
     });
-}
-
-/// The value that a word stands for.
-fn meant(raw: &[u8]) -> Option<&'static str> {
-    let is_one_of = |words: [&str; 3]| words.iter().any(|word| raw.eq_ignore_ascii_case(word.as_bytes()));
-    if is_one_of(["true", "yes", "on"]) {
-        Some("1")
-    } else if is_one_of(["false", "no", "off"]) {
-        Some("0")
-    } else {
-        None
-    }
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ rule! {
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(data_type) = variable.standard_type.filter(|data_type| data_type.is_integer()) else { return };
     each_value(context, variable, |_, field| {
-        if let Ok(value @ Value::Formula(formula)) = field.value {
+        if let Some(value @ Value::Formula(formula)) = field.known() {
             // The sum grows with the node-ID, so the highest one decides.
             let [_, node_id] = node_ids(context);
             if !fits(value, data_type, node_id) {

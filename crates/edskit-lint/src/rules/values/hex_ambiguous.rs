@@ -53,7 +53,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(data_type) = variable.standard_type.filter(ambiguous) else { return };
     let mut fields = Vec::new();
     each_value(context, variable, |_, field| {
-        if let Ok(value @ (Value::Integer(_) | Value::RealBits(_))) = field.value
+        if let Some(value @ (Value::Integer(_) | Value::RealBits(_))) = field.known()
             && let Some(readings) = Readings::of(value, data_type, NodeId::MIN)
             && readings.is_ambiguous()
             && !(is_limit(field.entry) && limits_are_wrong(context, variable, data_type))
@@ -74,8 +74,8 @@ fn is_limit(entry: Entry<'_>) -> bool {
 /// Limits that are wrong under both readings are the matter of VAL003.
 #[cold]
 fn limits_are_wrong(context: &Context<'_>, variable: &Variable<'_>, data_type: DataType) -> bool {
-    let value = |limit: Option<Field<'_, _>>| limit.and_then(Field::known);
-    let limits = value(variable.low_limit).zip(value(variable.high_limit));
+    let low = variable.low_limit.and_then(Field::known);
+    let limits = low.zip(variable.high_limit.and_then(Field::known));
     limits.is_some_and(|(low, high)| have_no_reading(low, high, data_type, node_ids(context)))
 }
 
@@ -111,9 +111,9 @@ fn report_values(fields: &[(Field<'_, Value<'_>>, Readings)], data_type: DataTyp
 
 /// The literal as a number, in all its digits.
 fn as_number(field: Field<'_, Value<'_>>) -> String {
-    match field.value {
-        Ok(Value::Integer(number)) => number.value().to_string(),
-        Ok(Value::RealBits(bits)) => bits.to_string(),
+    match field.known() {
+        Some(Value::Integer(number)) => number.value().to_string(),
+        Some(Value::RealBits(bits)) => bits.to_string(),
         _ => String::new(),
     }
 }

@@ -52,7 +52,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     else {
         return;
     };
-    let (Ok(low_value), Ok(high_value)) = (low.value, high.value) else { return };
+    let (Some(low_value), Some(high_value)) = (low.known(), high.known()) else { return };
     let node_ids = node_ids(context);
     if contradict(low_value, high_value, data_type, node_ids) {
         report_limits(low, high, data_type, node_ids, report);
@@ -144,7 +144,7 @@ fn report_limits(
     report: &mut Report,
 ) {
     let show = |field: Field<'_, Value<'_>>| {
-        let readings = field.value.ok().and_then(|value| Readings::of(value, data_type, node_id));
+        let readings = field.known().and_then(|value| Readings::of(value, data_type, node_id));
         readings.map_or_else(String::new, |readings| shown(field.entry, readings.as_bits))
     };
     let help = match negative(low, data_type) {
@@ -160,7 +160,7 @@ fn report_limits(
 
 /// What a lower limit says whose digits are the bits of a negative number, but too few for its signed type.
 fn negative(low: Field<'_, Value<'_>>, data_type: DataType) -> Option<i128> {
-    let Ok(Value::Integer(number)) = low.value else { return None };
+    let Some(Value::Integer(number)) = low.known() else { return None };
     let bits = u16::from(number.digits()) * 4;
     data_type.bits().filter(|&of_type| data_type.is_signed() && bits < of_type)?;
     number.twos_complement(bits)

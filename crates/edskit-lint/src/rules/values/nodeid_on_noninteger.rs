@@ -1,7 +1,7 @@
 use super::reading::{each_value, is_formula, name};
-use crate::inline_comment::value_length;
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
+use edskit_model::meant::value_length;
 use edskit_model::{Formula, Value};
 use edskit_types::{DataType, DataTypeKind};
 

@@ -1,11 +1,11 @@
 //! What a literal can mean to the readers in use, and which values a variable has.
 
 use crate::evaluate::commissioned;
-use crate::inline_comment;
 use crate::{Context, Variable};
 use core::fmt;
+use edskit_model::meant::value_length;
 use edskit_model::{Entry, Field, KeyName, Radix, Section, SectionKind, Value};
-use edskit_types::{DataType, NodeId};
+use edskit_types::{DataType, Index, NodeId};
 
 /// One meaning of a literal. All values of one data type are of one variant, so they compare.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Debug)]
@@ -172,7 +172,7 @@ pub(super) fn is_compact(variable: &Variable<'_>) -> bool {
 
 /// Whether other rules own what is wrong with the text: a formula or an inline comment.
 pub(super) fn is_owned_elsewhere(raw: &[u8]) -> bool {
-    is_formula(raw) || inline_comment::value_length(raw).is_some()
+    is_formula(raw) || value_length(raw).is_some()
 }
 
 /// Whether a text that is no integer speaks of the node-ID. `$` alone may begin a hexadecimal number.
@@ -187,8 +187,17 @@ pub(super) fn name(entry: Entry<'_>) -> String {
             let list = entry.section().map(Section::name).unwrap_or_default();
             format!("value {} of `[{list}]`", entry.key().number)
         }
+        KeyName::DefaultValue | KeyName::ParameterValue if is_of_data_type(entry) => {
+            format!("the limit `[{}]`", entry.section().map(Section::name).unwrap_or_default())
+        }
         name => format!("`{}`", name.spelling()),
     }
+}
+
+/// Whether the entry belongs to the definition of a range type.
+fn is_of_data_type(entry: Entry<'_>) -> bool {
+    let index = entry.section().and_then(|section| section.kind().index());
+    index.is_some_and(|index| index < Index::DEVICE_TYPE)
 }
 
 /// How messages show a value: as written, and in decimal where that looks different.

@@ -51,7 +51,9 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(data_type) = variable.standard_type else { return };
     let Some((low, high)) = data_type.range() else { return };
     let says = |limit: Option<Field<'_, Value<'_>>>, border: i128| {
-        limit.is_none_or(|limit| limit.value.is_ok_and(|value| value.integer(data_type, None) == Ok(border)))
+        limit.is_none_or(|limit| {
+            limit.known().is_some_and(|value| value.integer(data_type, None) == Ok(border))
+        })
     };
     if !says(variable.low_limit, low) || !says(variable.high_limit, high) {
         return;
@@ -67,7 +69,7 @@ fn check(_: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     if let Some(edits) = deletion(variable, &limits) {
         // Two's complement is not what every reader sees in a limit.
         let is_plain = |limit: &Field<'_, Value<'_>>| {
-            let readings = limit.value.ok().and_then(|value| Readings::of(value, data_type, NodeId::MIN));
+            let readings = limit.known().and_then(|value| Readings::of(value, data_type, NodeId::MIN));
             !readings.is_some_and(Readings::is_ambiguous)
         };
         if limits.iter().all(is_plain) {

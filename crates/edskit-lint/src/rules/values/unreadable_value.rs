@@ -1,6 +1,7 @@
 use super::reading::{each_value, is_owned_elsewhere, name};
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
+use edskit_model::meant::{Slip, Wanted};
 use edskit_model::{Field, Value};
 use edskit_types::{DataType, DataTypeKind};
 
@@ -66,26 +67,20 @@ fn report_value(field: Field<'_, Value<'_>>, data_type: DataType, report: &mut R
     let message = format!("{} is `{}`, which is no {data_type}", name(field.entry), field.text());
     let finding = report.add(field.span(), message);
     if data_type.kind() != DataTypeKind::Real {
-        finding.help("write the 48 bits as one number, such as `0x000000000000`");
+        finding.help(
+            "write the days and the milliseconds, such as `365 43200000`, or the 48 bits as one number",
+        );
     } else if matches!(raw, [b'0', b'x' | b'X', ..]) {
         let digits = data_type.bits().unwrap_or(64) / 4;
         finding.help(format!(
             "write a decimal number, or the bits of the value as at most {digits} hexadecimal digits"
         ));
-    } else if let Some(text) = repaired(raw, data_type) {
+    } else if let Some(Slip { text, .. }) = field.entry.slip(Wanted::Value(Some(data_type))) {
         finding.help(format!("write `{text}`"));
         finding.unsafe_fix(format!("Write {text}"), vec![Edit::replace(field.span(), text)]);
     } else {
         finding.help("write a decimal number such as `0.5` or `5e-1`");
     }
-}
-
-/// The number with a point in the place of its only comma, and without the suffix of a C literal.
-fn repaired(raw: &[u8], data_type: DataType) -> Option<String> {
-    let text = std::str::from_utf8(raw).ok()?.replacen(',', ".", 1);
-    let number = text.strip_suffix(['f', 'F']).unwrap_or(&text);
-    Value::parse(data_type, number.as_bytes()).ok()?;
-    Some(number.to_owned())
 }
 
 #[cfg(test)]

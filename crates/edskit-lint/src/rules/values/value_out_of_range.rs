@@ -53,7 +53,7 @@ rule! {
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(data_type) = variable.standard_type.filter(|data_type| data_type.is_numeric()) else { return };
     each_value(context, variable, |role, field| {
-        if let Ok(value @ (Value::Integer(_) | Value::Real(_))) = field.value
+        if let Some(value @ (Value::Integer(_) | Value::Real(_))) = field.known()
             && !fits(value, data_type, NodeId::MIN)
         {
             report_value(variable, role, field, value, data_type, report);

@@ -56,17 +56,19 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    if variable.low_limit.is_none() && variable.high_limit.is_none() {
+    let [low, high] = variable.range;
+    let (low, high) = (variable.low_limit.or(low), variable.high_limit.or(high));
+    if low.is_none() && high.is_none() {
         return;
     }
     let Some(data_type) = variable.standard_type.filter(|data_type| data_type.is_numeric()) else { return };
     if HAS_SIGNATURE.contains(&variable.index) {
         return;
     }
-    let limits = Limits { low: Limit::of(variable.low_limit), high: Limit::of(variable.high_limit) };
+    let limits = Limits { low: Limit::of(low), high: Limit::of(high) };
     let node_ids = node_ids(context);
     each_value(context, variable, |role, field| {
-        if let (Role::Value, Ok(value)) = (role, field.value)
+        if let (Role::Value, Some(value)) = (role, field.known())
             && node_ids.into_iter().all(|node_id| limits.exclude(value, data_type, node_id))
             && node_ids.into_iter().all(|node_id| fits(value, data_type, node_id))
             && !limits.are_wrong(data_type, node_ids)
@@ -89,7 +91,7 @@ struct Limit<'a> {
 impl<'a> Limit<'a> {
     fn of(field: Option<Field<'a, Value<'a>>>) -> Option<Self> {
         let field = field?;
-        Some(Self { entry: field.entry, value: field.value.ok()? })
+        Some(Self { entry: field.entry, value: field.known()? })
     }
 }
 
