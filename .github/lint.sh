@@ -6,7 +6,10 @@ set -uo pipefail
 # Blanks separate paths and arguments, as the inputs' descriptions say.
 read -r -a paths <<<"${EDSKIT_PATHS:-.}"
 read -r -a arguments <<<"${EDSKIT_ARGUMENTS:-}"
-options=(--fail-on "${EDSKIT_FAIL_ON:-warning}" "${arguments[@]}")
+options=("${arguments[@]}")
+if [[ -n "${EDSKIT_FAIL_ON:-}" ]]; then
+    options=(--fail-on "$EDSKIT_FAIL_ON" "${options[@]}")
+fi
 
 edskit lint --format github "${options[@]}" "${paths[@]}"
 code=$?

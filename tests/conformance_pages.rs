@@ -1,9 +1,10 @@
 //! The pages in `docs/conformance/` say what the tests and the ledgers say.
 
 use edskit_tests::conformance::{Device, Evidence, Id, Page, device, device_names, evidence};
-use edskit_tests::{read, root, shared};
+use edskit_tests::{paths, read, root, shared};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::PathBuf;
 
 /// A device with all that its page is made of.
 struct Made {
@@ -98,11 +99,23 @@ fn doubtful_statements_have_a_reading() {
     }
 }
 
-/// The statements of a ledger by their IDs.
+/// The statements of a ledger by their IDs. It is every page whose name begins with that of the device.
 fn ledger(name: &str, prefix: &str) -> Option<BTreeMap<String, String>> {
-    let path = shared("the ledger of a device")?.join(format!("ledger/{name}.md"));
-    let text = String::from_utf8(read(&path)).expect("ledgers are UTF-8");
-    Some(rows(&text, prefix).into_iter().map(|(id, cells)| (id.to_owned(), cells[0].to_owned())).collect())
+    let pages = paths(&shared("the ledger of a device")?.join("ledger"));
+    let is_own = |path: &PathBuf| {
+        let file = path.file_name().and_then(|file| file.to_str()).unwrap_or_default();
+        file.starts_with(name) && file.ends_with(".md")
+    };
+    let mut statements = BTreeMap::new();
+    for path in pages.into_iter().filter(is_own) {
+        let text = String::from_utf8(read(&path)).expect("ledgers are UTF-8");
+        for (id, cells) in rows(&text, prefix) {
+            let before = statements.insert(id.to_owned(), cells[0].to_owned());
+            assert_eq!(before, None, "{id} stands twice in the ledger");
+        }
+    }
+    assert!(!statements.is_empty(), "the ledger has no page of {name}");
+    Some(statements)
 }
 
 #[test]

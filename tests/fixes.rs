@@ -7,9 +7,12 @@ use edskit_types::{DataType, Index};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Rules whose safe fixes leave a file that says the same in other words, and how `is_same` tells: the list has an empty
-/// section more or an item less, `SubNumber` is what is described, what says nothing is left out, `#` becomes `;`, what
-/// stood behind a value becomes a comment, a time gets its other digit.
-const REWORDING: [&str; 8] = ["LST001", "LST003", "LST006", "OBJ007", "OBJ019", "SYN011", "SYN012", "VAL012"];
+/// section more or an item less, `SubNumber` is what is described, what is left out and what its absence means are the
+/// same, `#` becomes `;`, what stood behind a value becomes a comment, a time gets its other digit.
+const REWORDING: [&str; 11] = [
+    "LST001", "LST003", "LST006", "OBJ007", "OBJ019", "OBJ029", "PDO027", "SYN011", "SYN012", "SYN028",
+    "VAL012",
+];
 /// The time of [FileInfo] in its own form.
 const TIME: &str = "FIL005";
 
@@ -183,7 +186,13 @@ fn is_same(section: Section<'_>, left: Option<Entry<'_>>, right: Option<Entry<'_
             KeyName::HighLimit => range(section).is_some_and(|(_, high)| integer(left) == Some(high)),
             _ => left.key_text().starts_with('#'),
         },
-        (None, Some(right)) => right.key().name == KeyName::SubNumber,
+        (None, Some(right)) => match right.key().name {
+            KeyName::SubNumber | KeyName::Lines => true,
+            KeyName::Dummy => right.raw() == b"0",
+            KeyName::DataType => right.raw() == b"0x000F",
+            KeyName::AccessType => right.raw() == b"rw",
+            _ => false,
+        },
         (None, None) => true,
     }
 }

@@ -1,6 +1,10 @@
 //! The data sheets of the Heinzmann CANopen gateway: the one that its manual prints, and the corrected one.
 
+use edskit_devices::gateway::{Configuration, Engine, Gateway, State};
+use edskit_host::MemoryStorage;
+use edskit_host::sdo::{SdoChannel, SdoError, SdoOptions, Transfer};
 use edskit_model::{Datasheet, EvaluationError, KeyName, LineKind, Radix, SectionKind, Value};
+use edskit_runtime::{Device, Instant};
 use edskit_types::{AccessType, DataType, Index, NodeId, ObjectCode, SubIndex};
 
 /// Chapter 10 of the manual.
@@ -31,7 +35,7 @@ fn default(sheet: &Datasheet, index: u16, sub_index: u8) -> Option<i128> {
 fn extent(sheet: &Datasheet, index: u16) -> Option<(i128, i128, i128, u8, Vec<u8>)> {
     let entry = sheet.dictionary_entry(Index(index), SubIndex(0))?;
     let number = |value: Option<Value<'_>>| value?.integer(DataType::Unsigned8, None).ok();
-    let (low, high) = entry.limits();
+    let [low, high] = entry.limits().map(|limit| limit?.known());
     let object = sheet.object(Index(index))?;
     let sub_indices = object.sub_objects().map(|sub_object| sub_object.sub_index().0).collect();
     let sub_number = object.description().sub_number()?.known()?;
@@ -309,4 +313,99 @@ fn records_of_cia_301() {
         let codes = (code(&published), code(&corrected));
         assert_eq!(codes, (Some(ObjectCode::Array), Some(ObjectCode::Record)), "{index}");
     }
+}
+
+/// A gateway with the default parameters, in pre-operational.
+struct Live {
+    device: Gateway<Engine, MemoryStorage>,
+    now: Instant,
+}
+
+impl Live {
+    fn new() -> Self {
+        let device = Gateway::new(Configuration::new(), Engine::new(), MemoryStorage::default());
+        let mut live = Self { device, now: Instant(0) };
+        while live.device.state() != State::PreOperational {
+            live.device.poll(live.now);
+            while live.device.transmit().is_some() {}
+            live.now = live.device.next_deadline(live.now);
+        }
+        live
+    }
+
+    /// What an entry holds; `None` where there is no such entry.
+    fn read(&mut self, index: Index, sub_index: SubIndex) -> Option<i128> {
+        let channel = SdoChannel::of_node(NodeId::MIN);
+        let mut transfer = Transfer::read(channel, index, sub_index, SdoOptions::default(), self.now);
+        loop {
+            while let Some(request) = transfer.transmit(self.now) {
+                self.device.receive(self.now, &request);
+            }
+            self.device.poll(self.now);
+            while let Some(frame) = self.device.transmit() {
+                transfer.receive(self.now, &frame);
+            }
+            match transfer.result() {
+                None => {}
+                Some(Ok(bytes)) => {
+                    return Some(bytes.iter().rev().fold(0, |number, byte| number << 8 | i128::from(*byte)));
+                }
+                Some(Err(SdoError::Aborted(_))) => return None,
+                Some(Err(error)) => panic!("{index}: {error:?}"),
+            }
+        }
+    }
+}
+
+/// Every entry of a data sheet with its default at node 1, if it has one.
+fn defaults(sheet: &Datasheet) -> Vec<(Index, SubIndex, Option<i128>)> {
+    let entries = sheet.objects().flat_map(|object| object.dictionary_entries());
+    let default = |entry: edskit_model::DictionaryEntry<'_>| {
+        let value =
+            entry.default_value().and_then(|value| value.integer(entry.data_type()?, Some(NodeId::MIN)).ok());
+        (entry.index, entry.sub_index, value)
+    };
+    entries.map(default).collect()
+}
+
+// GW-EDS-24, GW-GAP-04, GW-GAP-13
+#[test]
+fn data_sheet_device_and_dcf_agree_in_every_default() {
+    let sheet = corrected();
+    let dcf =
+        edskit_tests::edskit_with_input(&["config", "dcf", "-"], b"device = \"heinzmann-canopen-gateway\"\n");
+    assert_eq!(dcf.exit, edskit::Exit::Clean, "{}", dcf.stderr);
+    let dcf = Datasheet::parse(dcf.stdout.as_bytes());
+    let mut live = Live::new();
+    let (mut same, mut absent) = (0, 0);
+    for (index, sub_index, stated) in defaults(&sheet) {
+        let held = live.read(index, sub_index);
+        let of_dcf =
+            dcf.sub_object(index, sub_index).is_some() || dcf.object(index).is_some_and(|_| sub_index.0 == 0);
+        assert_eq!(held.is_some(), of_dcf, "{index}:{sub_index}: the DCF has what the device has");
+        match (held, stated) {
+            // GW-GAP-01: the data sheet describes the greatest extent.
+            (None, _) => absent += 1,
+            (Some(held), Some(stated)) => {
+                assert_eq!(held, stated, "{index}:{sub_index}: device and data sheet");
+                let entry = dcf.dictionary_entry(index, sub_index).expect("it is in the DCF");
+                let value = entry
+                    .default_value()
+                    .and_then(|value| value.integer(entry.data_type()?, Some(NodeId::MIN)).ok());
+                assert_eq!(value, Some(held), "{index}:{sub_index}: device and DCF");
+                same += 1;
+            }
+            (Some(held), None) => {
+                let is_of_a_unit = (index, sub_index) == (Index::IDENTITY, SubIndex(4));
+                assert!(is_of_a_unit || held == 0, "{index}:{sub_index} is {held}, and has no default");
+            }
+        }
+    }
+    assert!(same > 130 && absent > 150, "{same} {absent}");
+    for sheet in [&sheet, &dcf] {
+        assert_eq!(sheet.device_info().unwrap().revision_number().unwrap().known(), Some(0));
+    }
+    assert_eq!(live.read(Index::IDENTITY, SubIndex(3)), Some(0));
+    // As printed (GW-EDS-17): the serial number of a unit is no default of all.
+    assert_eq!(default(&corrected(), 0x1018, 4), None);
 }

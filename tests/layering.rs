@@ -38,6 +38,8 @@ const ALLOWED: &[(&str, &[&str], Libraries)] = &[
             "edskit-codegen",
             "edskit-runtime",
             "edskit-host",
+            // Only for tests that need the command itself.
+            "edskit-tests",
         ],
         Any,
     ),

@@ -169,7 +169,7 @@ impl<'a> Watched<'a> {
                 answers.iter().for_each(|answer| transfer.receive(self.now, answer));
             }
             if let Some(result) = transfer.result() {
-                return result;
+                return result.map(|value| value.bytes);
             }
             let answers = self.pass(1);
             answers.iter().for_each(|answer| transfer.receive(self.now, answer));

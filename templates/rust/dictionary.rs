@@ -3,8 +3,8 @@
 /// The object dictionary{% if let Some(product) = product %} of {{ product }}{% endif %}, from {{ eds_docs }}.
 #[allow(dead_code, unreachable_pub, reason = "a device does not need everything that its EDS describes")]
 pub mod {{ naming.module }} {
-    use {{ naming.runtime }}::types::{DataType, Index,{% if !checks.is_empty() %} MappingEntry,{% endif %} SubIndex};
-    use {{ naming.runtime }}::{Entry, Flags, Limits, Memory, Parts, {% if !limits.is_empty() %}Position, {% endif %}{% if has_groups %}StorageGroup, {% endif %}Table};
+    use {{ naming.runtime }}::types::{BitRates, {% if bit_rates.contains("Bitrate::") %}Bitrate, {% endif %}DataType, Index,{% if !checks.is_empty() %} MappingEntry,{% endif %} SubIndex};
+    use {{ naming.runtime }}::{Entry, Flags, Limits, Memory, Parts, {% if !limits.is_empty() %}Position, {% endif %}Settings, {% if has_groups %}StorageGroup, {% endif %}Table};
 
     /// The object dictionary: the values that can change, and the working memory of a node.
     // Bytes of values, RPDOs, TPDOs, mapped entries, SDO servers, heartbeat consumers, bytes of buffers.
@@ -30,6 +30,16 @@ pub mod {{ naming.module }} {
             self.0.parts(&TABLE)
         }
     }
+
+    /// What `[DeviceInfo]` of the EDS says to a node: the bit rates that LSS may configure, whether there is LSS, who
+    /// starts the node, and what can be mapped. The node-ID is 1, unless the device says another one.
+    pub const SETTINGS: Settings = Settings {
+        bit_rates: {{ bit_rates }},
+        has_lss: {{ settings.has_lss }},
+        starts_by_itself: {{ settings.starts_by_itself }},
+        granularity: {{ settings.granularity }},
+        ..Settings::DEFAULT
+    };
 
     /// What is fixed about the dictionary.
     pub static TABLE: Table<'static> = Table {

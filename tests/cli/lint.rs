@@ -152,7 +152,10 @@ fn output_goes_to_a_file() {
     let folder = Folder::new("output");
     let target = format!("{}/report.xml", folder.path());
     let output = edskit(&["lint", FAULTY, "--format", "junit", "--output", &target]);
-    assert_eq!((output.exit, output.stdout.as_str()), (Exit::Findings, ""));
+    let summary = "6 errors, 3 warnings, 2 info in 1 of 1 file\n";
+    assert_eq!((output.exit, output.stdout.as_str()), (Exit::Findings, summary));
+    let quiet = edskit(&["lint", FAULTY, "--format", "junit", "--quiet", "--output", &target]);
+    assert_eq!((quiet.exit, quiet.stdout.as_str()), (Exit::Findings, ""));
     let written = String::from_utf8(folder.read("report.xml")).unwrap();
     assert_eq!(written, edskit(&["lint", FAULTY, "--format", "junit"]).stdout);
 }
@@ -176,4 +179,82 @@ fn every_odd_file_says_what_is_odd() {
         let output = edskit(&["lint", path.to_str().unwrap(), "--format", "human"]);
         insta::assert_snapshot!(format!("oddity_{name}"), output.all());
     }
+}
+
+#[test]
+fn a_verdict_follows_the_threshold_in_junit_too() {
+    let folder = Folder::new("junit");
+    let path = folder.write("info.eds", "[Special]\n[FileInfo]\n");
+    let junit = |threshold: &str| {
+        edskit(&["lint", &path, "--select", "SYN023", "--format", "junit", "--fail-on", threshold])
+    };
+    let passed = junit("warning");
+    assert!(passed.stdout.contains("tests=\"1\" failures=\"0\""), "{}", passed.stdout);
+    assert!(passed.stdout.contains("<system-out>info: `[Special]`"), "{}", passed.stdout);
+    let failed = junit("info");
+    assert!(failed.stdout.contains("tests=\"1\" failures=\"1\""), "{}", failed.stdout);
+    assert_eq!((passed.exit, failed.exit), (Exit::Clean, Exit::Findings));
+}
+
+#[test]
+fn statistics_add_up_to_the_summary() {
+    let Some(_) = edskit_tests::corpus("statistics") else { return };
+    let rows =
+        edskit(&["lint", "--isolated", "--statistics", "--format", "json", "../../shared/corpus"]).stdout;
+    let rows: Vec<serde_json::Value> = serde_json::from_str(&rows).unwrap();
+    let sum = |severity: &str| -> u64 {
+        let rows = rows.iter().filter(|row| row["severity"] == severity);
+        rows.map(|row| row["findings"].as_u64().unwrap()).sum()
+    };
+    let report = edskit(&["lint", "--isolated", "--format", "json", "../../shared/corpus"]).stdout;
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    for (severity, key) in [("error", "errors"), ("warning", "warnings"), ("info", "infos")] {
+        assert_eq!(report["summary"][key], sum(severity), "{severity}");
+    }
+}
+
+#[test]
+fn a_file_is_linted_once_however_it_is_typed() {
+    let folder = Folder::new("once");
+    let path = folder.write("eds/a.eds", "[1000]\n[1000]\n");
+    let other = format!("{}/./eds/../eds/a.eds", folder.path());
+    let output = edskit(&["lint", &path, &other, folder.path(), "--select", "SYN013", "--format", "concise"]);
+    assert!(output.stdout.ends_with("1 error in 1 of 1 file\n"), "{}", output.stdout);
+}
+
+#[test]
+fn globs_that_no_shell_has_expanded() {
+    let folder = Folder::new("globs");
+    let text = "[1000]\nParameterName=Device type\nDataType=7\n[1000]\n";
+    for name in ["eds/a.eds", "eds/b.eds", "eds/deep/c.eds", "eds/.hidden.eds", "[x].eds"] {
+        folder.write(name, text);
+    }
+    let count = |pattern: &str| {
+        let pattern = format!("{}/{pattern}", folder.path());
+        let output = edskit(&["lint", &pattern, "--select", "SYN013", "--format", "concise", "--quiet"]);
+        (output.stdout.lines().count(), output.exit)
+    };
+    assert_eq!(count("eds/*.eds"), (2, Exit::Findings));
+    assert_eq!(count("eds/**/*.eds"), (3, Exit::Findings));
+    assert_eq!(count("**/*.eds"), (4, Exit::Findings));
+    assert_eq!(count("eds/?.eds"), (2, Exit::Findings));
+    assert_eq!(count("{eds/a,eds/b}.eds"), (2, Exit::Findings));
+    assert_eq!(count("eds/d*"), (1, Exit::Findings), "a folder is searched");
+    assert_eq!(count("[x].eds"), (1, Exit::Findings), "a file of that name comes first");
+    for command in ["lint", "fmt", "show", "generate", "run"] {
+        let pattern = format!("{}/eds/*.dcf", folder.path());
+        let more: &[&str] = if command == "generate" { &["--output", folder.path()] } else { &[] };
+        let output = edskit(&[&[command, &pattern], more].concat());
+        assert_eq!(output.exit, Exit::Failed, "{command}");
+        assert!(
+            output.stderr.contains("there is no file that this glob means"),
+            "{command}: {}",
+            output.stderr
+        );
+    }
+    let one = format!("{}/eds/a*.eds", folder.path());
+    assert_eq!(edskit(&["show", &one]).exit, Exit::Clean);
+    let two = format!("{}/eds/*.eds", folder.path());
+    assert!(edskit(&["show", &two]).stderr.contains("2 files are meant"), "show takes one file");
+    assert_eq!(edskit(&["fmt", "--check", &two]).stdout.lines().count(), 2);
 }

@@ -9,6 +9,8 @@ mod generate;
 mod help;
 mod lint;
 mod neighbours;
+mod own_files;
+mod pages;
 mod profiles;
 mod run;
 mod settings;

@@ -114,3 +114,165 @@ fn a_baseline_hides_what_is_known() {
     folder.write("known.json", "{}");
     insta::assert_snapshot!("baseline_broken", folder.clean(&edskit(&rules)));
 }
+
+/// Two folders with a finding of SYN013 and one of OBJ013 in each file.
+fn two_files(name: &str) -> (Folder, String) {
+    let folder = Folder::new(name);
+    folder.write("eds/one.eds", BAD);
+    folder.write("eds/two.eds", BAD);
+    let baseline = format!("{}/known.json", folder.path());
+    (folder, baseline)
+}
+
+fn with_baseline(baseline: &str, arguments: &[&str]) -> edskit_tests::Output {
+    let rules = ["lint", "--isolated", "--format", "concise", "--baseline", baseline];
+    let select: &[&str] = if arguments.contains(&"--select") { &[] } else { &["--select", "SYN013,OBJ013"] };
+    edskit(&[&rules[..], select, arguments].concat())
+}
+
+#[test]
+fn a_partial_run_costs_a_baseline_nothing() {
+    let (folder, baseline) = two_files("baseline-partial");
+    let all = format!("{}/eds", folder.path());
+    let one = format!("{}/eds/one.eds", folder.path());
+    assert_eq!(with_baseline(&baseline, &[&all, "--update-baseline"]).exit, Exit::Clean);
+    let whole = folder.read("known.json");
+    let clean = || {
+        let output = with_baseline(&baseline, &[&all]);
+        assert_eq!(
+            (output.exit, output.stdout.as_str()),
+            (Exit::Clean, "2 files, no findings, 4 known from the baseline\n")
+        );
+    };
+    // One file of two.
+    let output = with_baseline(&baseline, &[&one, "--update-baseline"]);
+    assert_eq!(
+        folder.clean(&output),
+        "--- stdout\n2 findings written to <folder>/known.json, 2 of files and rules that were not looked at kept\n--- exit 0"
+    );
+    clean();
+    // One rule of two.
+    with_baseline(&baseline, &[&all, "--update-baseline", "--select", "SYN013"]);
+    clean();
+    // A file that cannot be read was not looked at.
+    let missing = format!("{}/eds/gone.eds", folder.path());
+    assert_eq!(with_baseline(&baseline, &[&one, &missing, "--update-baseline"]).exit, Exit::Failed);
+    clean();
+    // Nor was a file that settings exclude.
+    folder.write("edskit.toml", "exclude = [\"eds/two.eds\"]\n");
+    let rules = ["lint", "--baseline", &baseline, "--select", "SYN013,OBJ013", &all, "--update-baseline"];
+    assert_eq!(edskit(&rules).exit, Exit::Clean);
+    clean();
+    assert_eq!(folder.read("known.json"), whole);
+    // What is mended goes.
+    folder.write("eds/one.eds", "[2000]\n");
+    with_baseline(&baseline, &[&one, "--update-baseline"]);
+    assert!(!String::from_utf8(folder.read("known.json")).unwrap().contains("one.eds"));
+    // A baseline that cannot be read is not written over.
+    folder.write("known.json", "{");
+    assert_eq!(with_baseline(&baseline, &[&one, "--update-baseline"]).exit, Exit::Failed);
+    assert_eq!(folder.read("known.json"), b"{");
+}
+
+#[test]
+fn a_path_is_known_however_it_is_typed() {
+    let (folder, baseline) = two_files("baseline-paths");
+    with_baseline(&baseline, &[folder.path(), "--update-baseline"]);
+    let text = String::from_utf8(folder.read("known.json")).unwrap();
+    assert!(text.contains("\"eds/one.eds\"") && !text.contains(folder.path()), "{text}");
+    let other = format!("{}/eds/../known.json", folder.path());
+    for typed in ["eds/one.eds", "./eds/one.eds", "eds/../eds/one.eds", "eds//one.eds"] {
+        let path = format!("{}/{typed}", folder.path());
+        for baseline in [&baseline, &other] {
+            assert_eq!(with_baseline(baseline, &[&path]).exit, Exit::Clean, "{typed}");
+        }
+    }
+    // A baseline beside the files, not above them.
+    let beside = folder.write("ci/known.json", text.replace("eds/", "../eds/"));
+    assert_eq!(with_baseline(&beside, &[folder.path()]).exit, Exit::Clean);
+    with_baseline(&beside, &[folder.path(), "--update-baseline"]);
+    assert!(String::from_utf8(folder.read("ci/known.json")).unwrap().contains("\"../eds/one.eds\""));
+    // One that was written with a whole path.
+    let whole = folder.write("whole.json", text.replace("eds/", &format!("{}/eds/", folder.path())));
+    assert_eq!(with_baseline(&whole, &[folder.path()]).exit, Exit::Clean);
+}
+
+#[test]
+fn files_that_are_gone_leave_a_baseline_when_that_is_asked() {
+    let (folder, baseline) = two_files("baseline-prune");
+    with_baseline(&baseline, &[folder.path(), "--update-baseline"]);
+    std::fs::remove_file(format!("{}/eds/two.eds", folder.path())).unwrap();
+    with_baseline(&baseline, &[folder.path(), "--update-baseline"]);
+    assert!(String::from_utf8(folder.read("known.json")).unwrap().contains("two.eds"));
+    let output = with_baseline(&baseline, &[folder.path(), "--prune-baseline"]);
+    assert_eq!(
+        folder.clean(&output),
+        "--- stdout\n1 file, no findings, 2 known from the baseline\n--- stderr\nedskit: <folder>/known.json: 1 file that is gone is taken out\n--- exit 0"
+    );
+    let text = String::from_utf8(folder.read("known.json")).unwrap();
+    assert!(text.contains("one.eds") && !text.contains("two.eds"));
+    let nothing = edskit(&["lint", "--isolated", "--prune-baseline", folder.path()]);
+    assert_eq!(nothing.exit, Exit::Failed);
+}
+
+#[test]
+fn what_is_excluded_is_left_alone() {
+    let folder = Folder::new("exclude");
+    folder.write("edskit.toml", "select = [\"SYN013\"]\nexclude = [\"vendor/**\", \"*.old.eds\"]\n");
+    let own = folder.write("own.eds", BAD);
+    let theirs = folder.write("vendor/deep/theirs.eds", BAD);
+    folder.write("a.old.eds", BAD);
+    folder.write("deep/b.old.eds", BAD);
+    assert_eq!(codes(&folder, &[]), ["b.old.eds error SYN013", "own.eds error SYN013"]);
+    // Below the folder of the settings, in a file that is named, and for other commands.
+    let below = format!("{}/vendor", folder.path());
+    let output = edskit(&["lint", &below]);
+    assert_eq!((output.exit, output.stdout.as_str()), (Exit::Clean, "0 files, no findings\n"));
+    let named = edskit(&["lint", "--format", "concise", "--quiet", &theirs, &own]);
+    assert_eq!(named.stdout.lines().count(), 1);
+    assert!(
+        named.stderr.contains("theirs.eds: left out, because `exclude` of edskit.toml names it"),
+        "{}",
+        named.stderr
+    );
+    let before = folder.read("vendor/deep/theirs.eds");
+    let messy = folder.write("vendor/messy.eds", "[1000]\nAccessType = RO\n");
+    assert_eq!(edskit(&["fmt", "--check", &below]).exit, Exit::Clean);
+    assert_eq!(edskit(&["fmt", &messy]).exit, Exit::Clean);
+    assert_eq!(
+        (folder.read("vendor/deep/theirs.eds"), folder.read("vendor/messy.eds")),
+        (before, b"[1000]\nAccessType = RO\n".to_vec())
+    );
+    assert_eq!(codes(&folder, &["--isolated", "--select", "SYN013"]).len(), 4);
+}
+
+#[test]
+fn the_threshold_and_the_baseline_may_stand_in_the_settings() {
+    let folder = Folder::new("settings-ci");
+    folder.write("edskit.toml", "select = [\"SYN013\", \"OBJ013\"]\nfail-on = \"error\"\n[severity]\nSYN013 = \"warning\"\nOBJ013 = \"info\"\n");
+    let file = folder.write("deep/a.eds", BAD);
+    assert_eq!(edskit(&["lint", &file]).exit, Exit::Clean);
+    assert_eq!(
+        edskit(&["lint", &file, "--fail-on", "warning"]).exit,
+        Exit::Findings,
+        "the command line comes first"
+    );
+    folder.write("edskit.toml", "select = [\"SYN013\"]\nbaseline = \"old.json\"\n");
+    assert_eq!(edskit(&["lint", &file]).exit, Exit::Failed, "there is none yet");
+    assert_eq!(edskit(&["lint", &file, "--update-baseline"]).exit, Exit::Clean);
+    assert!(String::from_utf8(folder.read("old.json")).unwrap().contains("\"deep/a.eds\""));
+    assert_eq!(edskit(&["lint", &file]).stdout, "1 file, no findings, 1 known from the baseline\n");
+    let empty = folder.write("empty.json", "{\"version\": 1, \"files\": {}}");
+    assert_eq!(edskit(&["lint", &file, "--baseline", &empty]).exit, Exit::Findings);
+    for (name, text) in [
+        ("bad_fail_on", "fail-on = \"fatal\"\n"),
+        ("bad_exclude", "exclude = [\"a[\"]\n"),
+        ("exclude_in_override", "[[override]]\nfiles = [\"a\"]\nexclude = [\"b\"]\n"),
+        ("baseline_in_override", "[[override]]\nfiles = [\"a\"]\nbaseline = \"b\"\n"),
+    ] {
+        folder.write("edskit.toml", text);
+        let output = edskit(&["lint", &file]);
+        assert_eq!(output.exit, Exit::Failed, "{name}");
+        insta::assert_snapshot!(format!("settings_{name}"), folder.clean(&output));
+    }
+}

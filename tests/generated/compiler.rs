@@ -51,6 +51,7 @@ impl Packages {
         command.args(arguments).arg("--offline").current_dir(&self.folder);
         // Results are shared between the tests, and not with the build that runs them.
         command.env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("target"));
+        command.env("CARGO_PROFILE_DEV_DEBUG", "0").env("CARGO_INCREMENTAL", "0");
         command.env("CARGO_TERM_COLOR", "never").env_remove("RUSTFLAGS");
         command.output().expect("cargo runs")
     }

@@ -81,7 +81,7 @@ fn every_real_file_runs_and_tells_its_device_type() {
         };
         let answer = client.read(&mut Line::new(&layout, node_id), Index::DEVICE_TYPE, SubIndex(0));
         let answer = match answer {
-            Ok(bytes) => Ok(bytes),
+            Ok(value) => Ok(value.bytes),
             Err(SdoError::Aborted(code)) => Err(code),
             Err(error) => panic!("{}: {error}", file.name),
         };

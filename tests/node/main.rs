@@ -1,9 +1,10 @@
-//! Nodes in virtual time: random frames, bad buses, and every file of the corpus.
+//! Nodes in virtual time: random frames, bad buses, updates, and every file of the corpus.
 
 mod bad_bus;
 mod corpus;
 mod line;
 mod random;
+mod update;
 
 use edskit_codegen::Layout;
 use std::path::Path;

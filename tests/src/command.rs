@@ -44,6 +44,16 @@ pub fn edskit_with_input(arguments: &[&str], input: &[u8]) -> Output {
     Output { exit, stdout: stdout.text(), stderr: stderr.text() }
 }
 
+/// Runs `edskit` in the same way, and gives the bytes of standard output as they are.
+pub fn edskit_bytes(arguments: &[&str]) -> Vec<u8> {
+    let stdout = Buffer::default();
+    let mut streams = Streams::of_buffers(Vec::new(), Box::new(stdout.clone()), Box::new(io::sink()));
+    let arguments = std::iter::once("edskit").chain(arguments.iter().copied()).map(OsString::from);
+    edskit::run(arguments, &mut streams);
+    let bytes = stdout.0.lock().expect("no writer panics").clone();
+    bytes
+}
+
 /// A stream that can still be read when the command is done with it.
 #[derive(Clone, Default)]
 struct Buffer(Arc<Mutex<Vec<u8>>>);

@@ -9,7 +9,7 @@ pub mod hostile;
 pub mod picture;
 pub mod seeded;
 
-pub use command::{Output, edskit, edskit_with_input};
+pub use command::{Output, edskit, edskit_bytes, edskit_with_input};
 pub use folder::Folder;
 
 use std::ffi::OsStr;

@@ -1,5 +1,6 @@
 //! How people name a bus.
 
+use crate::virtual_time;
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
@@ -12,6 +13,7 @@ use thiserror::Error;
 /// let address: Address = "socketcand:192.168.1.5:29536/can1".parse().unwrap();
 /// assert_eq!(address.to_string(), "socketcand:192.168.1.5:29536/can1");
 /// assert_eq!("hub".parse(), Ok(Address::Hub));
+/// assert_eq!("virtual".parse(), Ok(Address::Virtual));
 ///
 /// let mistake = "slcan:localhost".parse::<Address>().unwrap_err();
 /// assert_eq!(mistake.to_string(), "`slcan:localhost` lacks the port, expected slcan:HOST:PORT, usually port 29537");
@@ -20,6 +22,15 @@ use thiserror::Error;
 pub enum Address {
     /// `hub`: a hub in this process, on loopback with the usual ports.
     Hub,
+    /// `virtual`: a bus in virtual time that this process makes and others attach to.
+    Virtual,
+    /// `virtual:HOST:PORT`: a bus in virtual time that another process has made.
+    VirtualAt {
+        /// A name or an IP address; IPv6 without brackets.
+        host: String,
+        /// The TCP port, usually 29538.
+        port: u16,
+    },
     /// `socketcand:HOST:PORT` or `socketcand:HOST:PORT/CHANNEL`: a hub or a socketcand daemon.
     Socketcand {
         /// A name or an IP address; IPv6 without brackets.
@@ -49,7 +60,8 @@ pub enum Address {
 pub enum AddressError {
     /// Not one of the kinds of buses.
     #[error(
-        "`{0}` names no bus, expected hub, socketcand:HOST:PORT[/CHANNEL], slcan:HOST:PORT or socketcan:INTERFACE"
+        "`{0}` names no bus, expected hub, socketcand:HOST:PORT[/CHANNEL], slcan:HOST:PORT, socketcan:INTERFACE, virtual or \
+         virtual:HOST:PORT"
     )]
     UnknownKind(String),
     /// Something behind `hub`.
@@ -78,13 +90,15 @@ pub enum AddressError {
     SerialLine(String),
 }
 
-/// The two forms with host and port.
+/// The forms with host and port.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum AddressForm {
     /// `socketcand:HOST:PORT[/CHANNEL]`
     Socketcand,
     /// `slcan:HOST:PORT`
     Slcan,
+    /// `virtual:HOST:PORT`
+    Virtual,
 }
 
 impl AddressForm {
@@ -92,6 +106,7 @@ impl AddressForm {
         match self {
             Self::Socketcand => "socketcand",
             Self::Slcan => "slcan",
+            Self::Virtual => "virtual",
         }
     }
 
@@ -99,6 +114,7 @@ impl AddressForm {
         match self {
             Self::Socketcand => 29536,
             Self::Slcan => 29537,
+            Self::Virtual => virtual_time::USUAL_PORT,
         }
     }
 }
@@ -108,6 +124,7 @@ impl fmt::Display for AddressForm {
         f.write_str(match self {
             Self::Socketcand => "socketcand:HOST:PORT[/CHANNEL]",
             Self::Slcan => "slcan:HOST:PORT",
+            Self::Virtual => "virtual:HOST:PORT",
         })
     }
 }
@@ -120,6 +137,11 @@ impl FromStr for Address {
         match (kind, rest) {
             ("hub", None) => Ok(Self::Hub),
             ("hub", Some(_)) => Err(AddressError::HubWithRest(text.to_owned())),
+            ("virtual", None) => Ok(Self::Virtual),
+            ("virtual", Some(place)) => {
+                let (host, port) = host_and_port(text, place, AddressForm::Virtual)?;
+                Ok(Self::VirtualAt { host, port })
+            }
             ("socketcand", rest) => {
                 let rest = rest.unwrap_or_default();
                 let (place, channel) = rest.split_once('/').unwrap_or((rest, "can0"));
@@ -148,6 +170,8 @@ impl fmt::Display for Address {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Hub => f.write_str("hub"),
+            Self::Virtual => f.write_str("virtual"),
+            Self::VirtualAt { host, port } => write!(f, "virtual:{}", place(host, *port)),
             Self::Socketcand { host, port, channel } => {
                 write!(f, "socketcand:{}/{channel}", place(host, *port))
             }
@@ -211,6 +235,8 @@ mod tests {
     fn all_kinds() {
         let (host, channel) = ("::1".to_owned(), "can0".to_owned());
         assert_eq!("hub".parse(), Ok(Address::Hub));
+        assert_eq!("virtual".parse(), Ok(Address::Virtual));
+        assert_eq!("virtual:[::1]:9".parse(), Ok(Address::VirtualAt { host: host.clone(), port: 9 }));
         assert_eq!(
             "socketcand:[::1]:7".parse(),
             Ok(Address::Socketcand { host: host.clone(), port: 7, channel })
@@ -236,6 +262,8 @@ mod tests {
                 "`can0` is no port, expected socketcand:HOST:PORT[/CHANNEL] with a port from 1",
             ),
             ("slcan:box:0", "`0` is no port"),
+            ("virtual:", "`virtual:` lacks the host, expected virtual:HOST:PORT"),
+            ("virtual:box", "lacks the port, expected virtual:HOST:PORT, usually port 29538"),
             ("slcan:box:+5", "`+5` is no port"),
             ("slcan:box:65536", "`65536` is no port"),
             ("slcan:::1:5", "needs brackets, as in slcan:[::1]:29537"),
@@ -254,7 +282,7 @@ mod tests {
     proptest! {
         #[test]
         fn what_is_shown_can_be_read(
-            text in "(hub|socketcand|slcan|socketcan)(:[a-z\\[\\]:0-9]{0,12}){0,2}:?[0-9]{0,6}(/[a-z]{0,5})?|\\PC*"
+            text in "(hub|virtual|socketcand|slcan|socketcan)(:[a-z\\[\\]:0-9]{0,12}){0,2}:?[0-9]{0,6}(/[a-z]{0,5})?|\\PC*"
         ) {
             if let Ok(address) = text.parse::<Address>() {
                 prop_assert_eq!(address.to_string().parse(), Ok(address));

@@ -47,7 +47,20 @@ pub enum BusError {
         /// Its words.
         answer: String,
     },
-    /// The hub cannot listen.
+    /// The other side has ended the connection, and a bus in virtual time cannot be found again as it was.
+    #[error("the bus at {peer} is gone: {source}")]
+    Gone {
+        /// Host and port.
+        peer: String,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The bus is one that only a program that runs devices can make.
+    #[error(
+        "`virtual` is a bus that `edskit run` makes; attach to it with virtual:HOST:PORT, usually virtual:127.0.0.1:29538"
+    )]
+    NobodyThere,
+    /// The hub or the bus in virtual time cannot listen.
     #[error("cannot listen on {address} for {protocol}: {source}{}", hint_on_listening(.source))]
     Listen {
         /// Address and port.
@@ -107,7 +120,9 @@ fn hint_on_connecting(error: &io::Error) -> &'static str {
 
 fn hint_on_listening(error: &io::Error) -> &'static str {
     match error.kind() {
-        io::ErrorKind::AddrInUse => "; perhaps a hub runs there already, attach to it with slcan:HOST:PORT",
+        io::ErrorKind::AddrInUse => {
+            "; perhaps a hub or a device runs there already, attach to it with slcan:HOST:PORT or virtual:HOST:PORT"
+        }
         io::ErrorKind::PermissionDenied => "; ports below 1024 are often reserved",
         _ => "",
     }

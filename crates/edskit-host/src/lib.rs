@@ -6,6 +6,8 @@
 //! |---|---|---|
 //! | [`VirtualBus`]: in this process, in virtual time, with arbitration and true bit times | none, it is made in code | yes |
 //! | [`Hub`]: a bus in this process that other tools attach to over TCP | `hub` | yes |
+//! | [`VirtualServer`]: a [`VirtualBus`] that other programs attach to over TCP | none, it is made in code | yes |
+//! | [`VirtualClient`]: the bus in virtual time of another process | `virtual:HOST:PORT` | yes |
 //! | [`Client::socketcand`]: a hub or a socketcand daemon | `socketcand:HOST:PORT/CHANNEL` | no |
 //! | [`Client::slcan`]: a hub or an SLCAN adapter that speaks TCP | `slcan:HOST:PORT` | yes |
 //! | `SocketCan`: an interface of the Linux kernel, with the feature `socketcan` | `socketcan:can0` | yes |
@@ -45,6 +47,7 @@ mod device;
 mod error;
 mod hub;
 mod in_process;
+mod listener;
 mod open;
 mod queue;
 pub mod sdo;
@@ -52,6 +55,7 @@ mod slcan;
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 mod socketcan;
 mod socketcand;
+mod virtual_time;
 
 pub use address::{Address, AddressError, AddressForm};
 pub use bus::{Bus, Event, Received};
@@ -65,3 +69,4 @@ pub use in_process::{Actor, Participant, VirtualBus, frame_bits, simulate};
 pub use open::open;
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 pub use socketcan::SocketCan;
+pub use virtual_time::{VirtualClient, VirtualServer};

@@ -1,10 +1,14 @@
 //! From an address to a bus.
 
-use crate::{Address, Bus, BusError, Client, Event, Hub, HubOptions, HubParticipant, Received, SendError};
+use crate::{
+    Address, Bus, BusError, Client, Event, Hub, HubOptions, HubParticipant, Received, SendError,
+    VirtualClient,
+};
 use edskit_runtime::{Frame, Instant};
 
 /// Opens the bus that `address` names. [`Address::Hub`] starts a hub with the default [`HubOptions`] that lives as long as
-/// the bus.
+/// the bus. [`Address::Virtual`] cannot be opened: a bus in virtual time needs somebody who lets its time pass
+/// ([`VirtualServer`](crate::VirtualServer)).
 ///
 /// # Errors
 ///
@@ -23,6 +27,8 @@ pub fn open(address: &Address) -> Result<Box<dyn Bus + Send>, BusError> {
             let hub = Hub::start(&HubOptions::default())?;
             Box::new(OwnHub { participant: hub.attach(), _hub: hub })
         }
+        Address::Virtual => return Err(BusError::NobodyThere),
+        Address::VirtualAt { host, port } => Box::new(VirtualClient::connect(host, *port)?),
         Address::Socketcand { host, port, channel } => Box::new(Client::socketcand(host, *port, channel)?),
         Address::Slcan { host, port } => Box::new(Client::slcan(host, *port)?),
         Address::SocketCan { interface } => socketcan(interface)?,

@@ -59,6 +59,11 @@ impl Finding {
         self.labels[0].span
     }
 
+    /// What findings are sorted by: the place, and the rule at it.
+    pub(crate) fn place(&self) -> (u32, &'static str, u32) {
+        (self.span().start, self.rule.code, self.span().end)
+    }
+
     /// Says something at the place itself.
     pub fn here(&mut self, text: impl Into<String>) -> &mut Self {
         self.labels[0].text = text.into();

@@ -2,7 +2,7 @@
 
 use crate::{Applicability, Edit, FileKind, Finding, Fix, Linter, Severity};
 use edskit_model::{Datasheet, Document, Encoding, LineEnding, Span};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::mem;
 
 /// After so many rounds in a row that leave as much to complain about as there was, the file is left as it was before
@@ -17,14 +17,15 @@ const MOST_TRIALS: usize = 500;
 pub struct Fixed {
     /// The file, read again.
     pub sheet: Datasheet,
-    /// What is still found in it.
+    /// What is still found in it. What was refused is not offered as a fix any more.
     pub findings: Vec<Finding>,
     /// How many fixes were applied.
     pub applied: usize,
     /// How many fixes were sure enough and yet left out: they would have made the file worse, or cannot be written in
     /// its encoding.
     pub refused: usize,
-    /// Whether nothing is left to do; false where two rules want the opposite of each other again and again.
+    /// Whether nothing is left to do. It is false where the search was given up: two rules want the opposite of each
+    /// other again and again, or more fixes had to be tried than a file gets trials.
     pub converged: bool,
 }
 
@@ -32,6 +33,7 @@ pub struct Fixed {
 ///
 /// Each round lints, takes the fixes that do not overlap in the order of the file, and reads the result again. Where
 /// there is more to complain about than before, the fixes to blame are found and refused; the others are applied.
+/// What was refused is tried once more when the rest is done, which may have made room for it.
 /// Replacements are written in the encoding of the file and with its line endings.
 pub fn fix(
     linter: &Linter,
@@ -55,13 +57,22 @@ pub fn fix_with(sheet: Datasheet, least: Applicability, lint: impl Fn(&Datasheet
     let (mut refused, mut applied, mut trials) = (Vec::new(), 0, MOST_TRIALS);
     // What was there before the rounds that improved nothing, and how many these are.
     let (mut best, mut idle_rounds) = (None, 0);
+    // How many fixes were applied when the refused ones were tried again.
+    let mut tried_again = None;
     while idle_rounds < MOST_IDLE_ROUNDS {
-        let chosen = choose(&state, least, &refused);
-        if chosen.is_empty() {
-            break;
+        let mut chosen = choose(&state, least, &refused);
+        let is_again = chosen.is_empty();
+        if is_again {
+            chosen = choose(&state, least, &[]);
+            if chosen.is_empty() || trials == 0 || tried_again == Some(applied) {
+                break;
+            }
+            tried_again = Some(applied);
+            refused.clear();
         }
         let mut round = Round { before: &state, accepted: Vec::new(), after: None, trials, lint: &lint };
-        let blamed: Vec<Fix> = round.try_all(&chosen).into_iter().cloned().collect();
+        let blamed = if is_again { round.try_each(&chosen) } else { round.try_all(&chosen) };
+        let blamed: Vec<Fix> = blamed.into_iter().cloned().collect();
         trials = round.trials;
         let accepted: Vec<Fix> = round.accepted.into_iter().cloned().collect();
         refused.extend(blamed);
@@ -80,7 +91,11 @@ pub fn fix_with(sheet: Datasheet, least: Applicability, lint: impl Fn(&Datasheet
         (state, applied) = (before, count);
     }
     let refused = wanted(&state, least).count();
-    let converged = idle_rounds < MOST_IDLE_ROUNDS;
+    let converged = idle_rounds < MOST_IDLE_ROUNDS && trials > 0;
+    for finding in &mut state.findings {
+        // What did harm when it was tried is no fix.
+        finding.fix = finding.fix.take().filter(|fix| !is_wanted(fix, least));
+    }
     Fixed { sheet: state.sheet, findings: state.findings, applied, refused, converged }
 }
 
@@ -89,6 +104,12 @@ struct State {
     sheet: Datasheet,
     findings: Vec<Finding>,
 }
+
+/// The number of errors and warnings of each rule and severity.
+type Counts = HashMap<(&'static str, Severity), usize>;
+
+/// The sections that something is about, by their names in lower case; the empty name for what is in none.
+type Places = HashSet<Vec<u8>>;
 
 impl State {
     /// How much there is to complain about; errors weigh more than any number of warnings.
@@ -102,18 +123,51 @@ impl State {
 
     /// Whether no rule finds more errors or warnings here than there.
     fn has_no_more_than(&self, other: &State) -> bool {
-        let (here, there) = (self.counts(), other.counts());
-        here.iter().all(|(rule, count)| there.get(rule).is_some_and(|others| count <= others))
+        has_no_more(&self.counts(), &other.counts())
     }
 
-    /// The number of errors and warnings of each rule and severity.
-    fn counts(&self) -> HashMap<(&'static str, Severity), usize> {
-        let mut counts = HashMap::new();
-        for finding in self.findings.iter().filter(|finding| finding.severity > Severity::Info) {
+    fn counts(&self) -> Counts {
+        let mut counts = Counts::new();
+        for finding in self.complaints() {
             *counts.entry((finding.rule.code, finding.severity)).or_default() += 1 + finding.omitted;
         }
         counts
     }
+
+    /// The same for each section that a finding points at.
+    fn counts_by_place(&self) -> HashMap<Vec<u8>, Counts> {
+        let mut counts: HashMap<Vec<u8>, Counts> = HashMap::new();
+        for finding in self.complaints() {
+            for place in places(&self.sheet, finding.labels.iter().map(|label| label.span)) {
+                let counts = counts.entry(place).or_default();
+                *counts.entry((finding.rule.code, finding.severity)).or_default() += 1 + finding.omitted;
+            }
+        }
+        counts
+    }
+
+    /// Errors and warnings; what is only worth knowing keeps no fix back.
+    fn complaints(&self) -> impl Iterator<Item = &Finding> {
+        self.findings.iter().filter(|finding| finding.severity > Severity::Info)
+    }
+}
+
+fn has_no_more(here: &Counts, there: &Counts) -> bool {
+    here.iter().all(|(rule, count)| there.get(rule).is_some_and(|others| count <= others))
+}
+
+/// The sections in which these spans lie.
+fn places(sheet: &Datasheet, spans: impl Iterator<Item = Span>) -> Places {
+    let name = |span: Span| {
+        let section = sheet.section_at(span.start);
+        section.map(|section| {
+            // A section is the same however its name is spelt.
+            let canonical = section.kind().canonical_name().map(String::into_bytes);
+            let own = || section.name_span().slice(sheet.document().to_bytes()).to_vec();
+            canonical.unwrap_or_else(own).to_ascii_lowercase()
+        })
+    };
+    spans.map(|span| name(span).unwrap_or_default()).collect()
 }
 
 /// The search for the fixes of one round that make the file no worse.
@@ -129,15 +183,17 @@ struct Round<'a, L> {
 }
 
 impl<'a, L: Fn(Vec<u8>) -> State> Round<'a, L> {
-    /// Accepts all of these if they do no harm besides those that are accepted, else halves them until the fixes to
-    /// blame are found, which it returns. Where there is no time left for this, it blames them all.
+    /// Accepts all of these if they do no harm besides those that are accepted, else looks for the fixes to blame, which
+    /// it returns. Where there is no time left for this, it blames them all.
     fn try_all(&mut self, fixes: &[&'a Fix]) -> Vec<&'a Fix> {
-        let together: Vec<&Fix> = self.accepted.iter().chain(fixes).copied().collect();
-        let after = (self.lint)(apply(&self.before.sheet, &together));
+        if fixes.is_empty() {
+            return Vec::new();
+        }
+        let Some((together, after)) = self.with(fixes) else { return fixes.to_vec() };
         let before = self.after.as_ref().unwrap_or(self.before);
-        // What one fix mends must not hide what another one breaks.
         let is_harmless = match fixes {
-            [_] => after.burden() <= before.burden(),
+            [fix] => is_harmless(fix, before, &after),
+            // What one fix mends must not hide what another one breaks.
             _ => after.has_no_more_than(before),
         };
         if is_harmless {
@@ -145,21 +201,85 @@ impl<'a, L: Fn(Vec<u8>) -> State> Round<'a, L> {
             self.after = Some(after);
             return Vec::new();
         }
-        if fixes.len() == 1 || self.trials < 2 {
+        if fixes.len() == 1 {
             return fixes.to_vec();
         }
-        self.trials -= 2;
-        let (left, right) = fixes.split_at(fixes.len() / 2);
-        let mut blamed = self.try_all(left);
-        blamed.extend(self.try_all(right));
+        let mut blamed = Vec::new();
+        for part in self.divide(fixes, &worse_places(before, &after)) {
+            blamed.extend(self.try_all(&part));
+        }
         blamed
     }
+
+    /// Two parts of fixes that do harm together: those in sections that got worse apart from the others, or where that
+    /// says nothing, half of the fixes of every section. So many sections are searched at once.
+    fn divide(&self, fixes: &[&'a Fix], worse: &Places) -> [Vec<&'a Fix>; 2] {
+        let own_places = |fix: &&Fix| places(&self.before.sheet, fix.edits.iter().map(|edit| edit.span));
+        let is_innocent = |fix: &&Fix| own_places(fix).is_disjoint(worse);
+        let (innocent, suspect): (Vec<&Fix>, Vec<&Fix>) = fixes.iter().copied().partition(is_innocent);
+        if !innocent.is_empty() && !suspect.is_empty() {
+            return [innocent, suspect];
+        }
+        let place = |fix: &Fix| self.before.sheet.section_at(extent(fix).start).map(|section| section.id());
+        let mut sizes: HashMap<Option<u32>, usize> = HashMap::new();
+        for fix in fixes {
+            *sizes.entry(place(fix)).or_default() += 1;
+        }
+        if sizes.len() == fixes.len() {
+            let (left, right) = fixes.split_at(fixes.len() / 2);
+            return [left.to_vec(), right.to_vec()];
+        }
+        let mut taken: HashMap<Option<u32>, usize> = HashMap::new();
+        let (first, second) = fixes.iter().copied().partition(|fix| {
+            let place = place(fix);
+            let taken = taken.entry(place).or_default();
+            *taken += 1;
+            *taken <= sizes[&place].div_ceil(2)
+        });
+        [first, second]
+    }
+
+    /// Tries one after the other, and returns those that do harm.
+    fn try_each(&mut self, fixes: &[&'a Fix]) -> Vec<&'a Fix> {
+        fixes.iter().flat_map(|fix| self.try_all(&[fix])).collect()
+    }
+
+    /// The file with these fixes besides those that are accepted; `None` where there is no time left for that.
+    fn with(&mut self, fixes: &[&'a Fix]) -> Option<(Vec<&'a Fix>, State)> {
+        self.trials = self.trials.checked_sub(1)?;
+        let mut together: Vec<&Fix> = self.accepted.iter().chain(fixes).copied().collect();
+        together.sort_by_key(|fix| extent(fix));
+        let after = (self.lint)(apply(&self.before.sheet, &together));
+        Some((together, after))
+    }
+}
+
+/// Whether one fix leaves no more to complain about.
+///
+/// A safe fix may bring to light what its own mistake hid, since the file means the same before and after. An unsafe one
+/// after which another rule complains has guessed wrong.
+fn is_harmless(fix: &Fix, before: &State, after: &State) -> bool {
+    let is_lighter = after.burden() <= before.burden();
+    is_lighter && (fix.applicability == Applicability::Safe || after.has_no_more_than(before))
+}
+
+/// The sections in which a rule finds more errors or warnings than before.
+fn worse_places(before: &State, after: &State) -> Places {
+    let (there, here) = (before.counts_by_place(), after.counts_by_place());
+    let none = Counts::new();
+    let worse =
+        here.into_iter().filter(|(place, counts)| !has_no_more(counts, there.get(place).unwrap_or(&none)));
+    worse.map(|(place, _)| place).collect()
 }
 
 /// The fixes that are sure enough.
 fn wanted(state: &State, least: Applicability) -> impl Iterator<Item = &Fix> {
     let fixes = state.findings.iter().filter_map(|finding| finding.fix.as_ref());
-    fixes.filter(move |fix| fix.applicability >= least && !fix.edits.is_empty())
+    fixes.filter(move |fix| is_wanted(fix, least))
+}
+
+fn is_wanted(fix: &Fix, least: Applicability) -> bool {
+    fix.applicability >= least && !fix.edits.is_empty()
 }
 
 /// The fixes of one round in the order of the file: those that overlap none before them and can be applied.
@@ -353,8 +473,104 @@ mod tests {
             lints.set(lints.get() + 1);
             lint(sheet)
         });
-        assert_eq!((fixed.applied, fixed.refused, fixed.converged), (0, MOST_FINDINGS, true));
+        assert_eq!((fixed.applied, fixed.refused, fixed.converged), (0, MOST_FINDINGS, false));
         assert!(lints.get() <= MOST_TRIALS + 3, "{}", lints.get());
+        assert!(fixed.findings.iter().all(|finding| finding.fix.is_none()), "a refused fix is still offered");
+    }
+
+    /// Lints a text by its sections: each `bad` entry has a fix after which its section holds something worse, and each
+    /// `good` entry one that does no harm.
+    fn sections(sheet: &Datasheet) -> Vec<Finding> {
+        let mut report = Report::new(find("duplicate-section").unwrap()[0]);
+        let mut worse = Report::new(find("duplicate-key").unwrap()[0]);
+        for entry in sheet.entries() {
+            let (key, value) = (entry.key_text(), entry.raw());
+            match &*key {
+                "bad" if value == b"0" => {
+                    let edits = vec![Edit::replace(entry.value_span(), "1")];
+                    report.add(entry.span(), key).safe_fix("Write 1", edits);
+                }
+                "bad" => {
+                    worse.add(entry.span(), "worse");
+                    worse.add(entry.span(), "worse");
+                }
+                "good" if value == b"0" => {
+                    let edits = vec![Edit::replace(entry.value_span(), "1")];
+                    report.add(entry.span(), key).safe_fix("Write 1", edits);
+                }
+                _ => {}
+            }
+        }
+        [report.into_findings(), worse.into_findings()].concat()
+    }
+
+    #[test]
+    fn many_bad_fixes_in_many_sections_are_found_in_few_trials() {
+        let mut text = String::new();
+        for number in 0..300 {
+            let bad = if number % 3 == 0 { "bad=0\n" } else { "" };
+            text += &format!("[{:X}]\ngood=0\ngood=0\n{bad}good=0\ngood=0\n", 0x2000 + number);
+        }
+        let lints = Cell::new(0);
+        let lint = |sheet: &Datasheet| {
+            lints.set(lints.get() + 1);
+            sections(sheet)
+        };
+        let fixed = fix_with(Datasheet::parse(text.as_bytes()), Applicability::Safe, lint);
+        assert_eq!((fixed.applied, fixed.refused, fixed.converged), (1_200, 100, true));
+        assert!(lints.get() < MOST_TRIALS, "{}", lints.get());
+        let again = fix_with(fixed.sheet, Applicability::Safe, sections);
+        assert_eq!((again.applied, again.refused), (0, 100), "a second run changes something");
+    }
+
+    #[test]
+    fn an_unsafe_fix_after_which_another_rule_complains_is_none() {
+        let lint = |least: fn(&mut Finding, Edit)| {
+            move |sheet: &Datasheet| {
+                let mut report = Report::new(find("duplicate-section").unwrap()[0]);
+                let mut other = Report::new(find("duplicate-key").unwrap()[0]);
+                if sheet.document().to_bytes() == b"a" {
+                    least(report.add(Span::at(0), "a"), Edit::replace(Span::new(0, 1), "b"));
+                } else {
+                    other.add(Span::at(0), "b");
+                }
+                [report.into_findings(), other.into_findings()].concat()
+            }
+        };
+        let safe = lint(|finding, edit| {
+            finding.safe_fix("Write b", vec![edit]);
+        });
+        let guessed = lint(|finding, edit| {
+            finding.unsafe_fix("Write b", vec![edit]);
+        });
+        assert_eq!(fix_with(Datasheet::parse(b"a"), Applicability::Unsafe, safe).applied, 1);
+        let fixed = fix_with(Datasheet::parse(b"a"), Applicability::Unsafe, guessed);
+        assert_eq!((fixed.applied, fixed.refused, fixed.findings[0].fix.is_none()), (0, 1, true));
+    }
+
+    #[test]
+    fn what_was_refused_is_tried_again_when_the_rest_is_done() {
+        // The first fix does harm until the second one, which follows from a third, is made.
+        let lint = |sheet: &Datasheet| {
+            let source = String::from_utf8_lossy(sheet.document().to_bytes()).into_owned();
+            let mut report = Report::new(find("duplicate-section").unwrap()[0]);
+            let mut worse = Report::new(find("duplicate-key").unwrap()[0]);
+            let replace = |at: u32, text: &str| vec![Edit::replace(Span::new(at, at + 1), text)];
+            if source.starts_with('a') {
+                report.add(Span::at(0), "a").safe_fix("Write b", replace(0, "b"));
+            } else if !source.ends_with('3') {
+                worse.add(Span::at(0), "b before 3");
+                worse.add(Span::at(0), "b before 3");
+            }
+            for (old, new) in [('1', "2"), ('2', "3")] {
+                if source.ends_with(old) {
+                    report.add(Span::at(4), "number").safe_fix("Count", replace(4, new));
+                }
+            }
+            [report.into_findings(), worse.into_findings()].concat()
+        };
+        let fixed = fix_with(Datasheet::parse(b"a   1"), Applicability::Safe, lint);
+        assert_eq!((fixed.sheet.document().to_bytes(), fixed.refused), (&b"b   3"[..], 0));
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //!
 //! One rule is one file under `rules/`: documentation, metadata, check and tests, plus one line in its group's list.
 
+mod conflicts;
 mod context;
 mod described;
 mod edits;
@@ -17,6 +18,7 @@ mod linter;
 mod listing;
 mod missing;
 mod neighbours;
+mod numbering;
 mod odd_lines;
 mod pdos;
 mod peers;

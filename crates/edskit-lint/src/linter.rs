@@ -1,9 +1,10 @@
 //! The engine: it walks a file once and calls each rule at the level it asked for.
 
+use crate::conflicts::Conflicts;
 use crate::context::{Context, Report, Variable};
 use crate::inline_comment;
 use crate::rule::{EntryCheck, FileCheck, LineCheck, ObjectCheck, SectionCheck, VariableCheck};
-use crate::rules::syntax::line_without_equals;
+use crate::rules::syntax::line_without_equals::{self, LINE_WITHOUT_EQUALS};
 use crate::rules::syntax::not_canopen::{self, NOT_CANOPEN};
 use crate::suppression;
 use crate::{Check, FileKind, Finding, Neighbours, Profile, RuleSet};
@@ -84,6 +85,26 @@ impl Linter {
     }
 
     fn lint_context(&self, context: &Context<'_>) -> Vec<Finding> {
+        let conflicts = Conflicts::of(context.document());
+        if conflicts.is_empty() {
+            return self.lint_text(context, Vec::new());
+        }
+        let mut report = Report::new(&LINE_WITHOUT_EQUALS);
+        if self.rules.is_enabled(&LINE_WITHOUT_EQUALS) {
+            line_without_equals::report_conflicts(context.document(), &conflicts, &mut report);
+        }
+        let left = report.into_findings();
+        let [ours, theirs] = conflicts.sides(context.document()).map(|sheet| {
+            let mut side = Context::new(&sheet, context.kind, context.file_name);
+            side = side.with_profiles(&self.profiles);
+            side.neighbours = context.neighbours;
+            self.lint_text(&side, left.clone())
+        });
+        conflicts.common(context.document(), ours, &theirs)
+    }
+
+    /// What is found in a file without conflicts, and what is `found` already.
+    fn lint_text(&self, context: &Context<'_>, found: Vec<Finding>) -> Vec<Finding> {
         let mut report = Report::new(&NOT_CANOPEN);
         if not_canopen::is_foreign(context) {
             if self.rules.is_enabled(&NOT_CANOPEN) {
@@ -99,11 +120,10 @@ impl Linter {
             // Rules count bytes; people and editors want to see characters.
             label.span = context.document().whole_characters(label.span);
         }
+        findings.extend(found);
         suppression::apply(context, &self.rules, &mut findings);
         self.rules.apply_severities(&mut findings);
-        findings.sort_by(|a, b| {
-            (a.span().start, a.rule.code, a.span().end).cmp(&(b.span().start, b.rule.code, b.span().end))
-        });
+        findings.sort_by_key(Finding::place);
         findings
     }
 

@@ -2,10 +2,11 @@
 
 use crate::rules::syntax::unused_suppression::UNUSED_SUPPRESSION;
 use crate::{Context, Edit, Finding, Report, Rule, RuleSet, find};
-use edskit_model::{Line, LineKind, Span};
+use edskit_model::{Line, LineKind, Object, Section, SectionKind, Span};
+use std::rc::Rc;
 
 /// What such a comment begins with, behind its `;` and blanks.
-const MARK: &str = "edskit:";
+const MARK: &[u8] = b"edskit:";
 
 /// One rule that one comment silences.
 struct Suppression {
@@ -15,9 +16,16 @@ struct Suppression {
     selector: Span,
     /// What it names; empty for an unknown rule.
     rules: Vec<&'static Rule>,
-    /// Where findings are silenced.
-    scope: Span,
+    /// Where findings are silenced: in one place or several, sorted.
+    scope: Rc<[Span]>,
     used: bool,
+}
+
+impl Suppression {
+    fn covers(&self, place: u32) -> bool {
+        let begun = self.scope.partition_point(|scope| scope.start <= place);
+        self.scope[..begun].last().is_some_and(|scope| scope.contains(Span::at(place)))
+    }
 }
 
 /// Takes out the findings that comments of the file silence, and reports comments that silence nothing.
@@ -28,8 +36,7 @@ pub(crate) fn apply(context: &Context<'_>, rules: &RuleSet, findings: &mut Vec<F
     }
     findings.retain(|finding| {
         let silences = |suppression: &Suppression| {
-            suppression.rules.contains(&finding.rule)
-                && suppression.scope.contains(Span::at(finding.span().start))
+            suppression.rules.contains(&finding.rule) && suppression.covers(finding.span().start)
         };
         let mut silenced = false;
         for suppression in suppressions.iter_mut().filter(|suppression| silences(suppression)) {
@@ -94,7 +101,7 @@ struct Comments {
 fn read(context: &Context<'_>) -> Comments {
     let source = context.source();
     // Almost no file has one, and this is faster than a look at every line.
-    if memchr::memmem::find(source, MARK.as_bytes()).is_none() {
+    if !memchr::memchr_iter(b';', source).any(|place| is_meant(&source[place + 1..])) {
         return Comments::default();
     }
     let lines = context.document().lines();
@@ -106,11 +113,12 @@ fn read(context: &Context<'_>) -> Comments {
             continue;
         };
         let scope = match keyword {
-            Keyword::File => Span::new(0, source.len() as u32),
-            Keyword::Next => next_scope(lines, number),
+            Keyword::File => [Span::new(0, source.len() as u32)].into(),
+            Keyword::Next => next_scope(context, number),
         };
         for selector in selectors {
             let rules = find(&String::from_utf8_lossy(selector.slice(source))).unwrap_or_default();
+            let scope = Rc::clone(&scope);
             comments.suppressions.push(Suppression { line: number, selector, rules, scope, used: false });
         }
     }
@@ -119,19 +127,32 @@ fn read(context: &Context<'_>) -> Comments {
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Keyword {
-    /// `allow(..)`: the next entry, or the next section with all its entries.
+    /// `allow(..)`: the next entry, or the next section with all that belongs to it.
     Next,
     /// `allow-file(..)`: the file.
     File,
 }
 
-/// What a comment says behind the mark, where it has it.
+/// Whether the text behind `;` is meant for this program: it has the mark, or nearly.
+fn is_meant(comment: &[u8]) -> bool {
+    let text = comment.trim_ascii_start();
+    let Some((name, rest)) = text.split_at_checked(MARK.len() - 1) else { return false };
+    let rest = rest.trim_ascii_start();
+    let begins = |word: &[u8]| rest.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
+    name.eq_ignore_ascii_case(&MARK[..MARK.len() - 1]) && (begins(b":") || begins(b"allow"))
+}
+
+/// What a comment that is meant for this program says behind the mark; nothing where the mark is not whole.
 fn after_mark(source: &[u8], line: &Line) -> Option<Span> {
     let span = line.trimmed(source);
     let text = span.slice(source).get(1..)?;
+    if span.slice(source)[0] != b';' || !is_meant(text) {
+        return None;
+    }
     let lead = text.len() - text.trim_ascii_start().len();
     let start = 1 + lead + MARK.len();
-    text[lead..].starts_with(MARK.as_bytes()).then(|| span.sub(start, span.len() - start))
+    let has_mark = text[lead..].get(..MARK.len()).is_some_and(|mark| mark.eq_ignore_ascii_case(MARK));
+    Some(if has_mark { span.sub(start, span.len() - start) } else { Span::at(span.end) })
 }
 
 /// The keyword of such an order and the spans of the rules in its parentheses, at least one.
@@ -139,8 +160,10 @@ fn parse(source: &[u8], order: Span) -> Option<(Keyword, Vec<Span>)> {
     let text = order.slice(source);
     let lead = text.len() - text.trim_ascii_start().len();
     let forms = [("allow-file(", Keyword::File), ("allow(", Keyword::Next)];
-    let (prefix, keyword) =
-        forms.into_iter().find(|(prefix, _)| text[lead..].starts_with(prefix.as_bytes()))?;
+    let begins = |prefix: &str| {
+        text[lead..].get(..prefix.len()).is_some_and(|start| start.eq_ignore_ascii_case(prefix.as_bytes()))
+    };
+    let (prefix, keyword) = forms.into_iter().find(|(prefix, _)| begins(prefix))?;
     let position = lead + prefix.len();
     let length = text[position..].iter().position(|&byte| byte == b')')?;
     let mut selectors = Vec::new();
@@ -157,19 +180,43 @@ fn parse(source: &[u8], order: Span) -> Option<(Keyword, Vec<Span>)> {
 }
 
 /// From the comment to the end of what stands next: an entry, any other line, or a section with all that belongs to it.
-fn next_scope(lines: &[Line], comment: usize) -> Span {
+/// To an object belong its sub-objects and its lists, wherever they stand.
+fn next_scope(context: &Context<'_>, comment: usize) -> Rc<[Span]> {
+    let lines = context.document().lines();
     let is_next = |line: &&Line| !matches!(line.kind(), LineKind::Comment | LineKind::Blank);
     let start = lines[comment].span().start;
     let Some(offset) = lines[comment..].iter().position(|line| is_next(&line)) else {
-        return Span::at(start);
+        return [Span::at(start)].into();
     };
     let next = comment + offset;
     if lines[next].kind() != LineKind::Section {
-        return Span::new(start, lines[next].full_span().end);
+        return [Span::new(start, lines[next].full_span().end)].into();
     }
-    let behind = lines[next + 1..].iter().position(|line| line.kind() == LineKind::Section);
-    let last = behind.map_or(lines.len() - 1, |offset| next + offset);
-    Span::new(start, lines[last].full_span().end)
+    let mut scope = vec![Span::new(start, section_end(lines, next))];
+    let section = context.sheet.section_at(lines[next].span().start);
+    if let Some(SectionKind::Object(index)) = section.map(Section::kind) {
+        let subs = context.sheet.object(index).into_iter().flat_map(Object::sub_objects);
+        let lists = [
+            SectionKind::ObjectLinks(index),
+            SectionKind::CompactNames(index),
+            SectionKind::CompactValues(index),
+            SectionKind::CompactDenotations(index),
+        ];
+        let parts = subs.map(|sub| sub.section());
+        let parts = parts.chain(lists.into_iter().filter_map(|kind| context.sheet.section(kind)));
+        scope.extend(
+            parts.map(|part| Span::new(part.line().span().start, section_end(lines, part.line_number()))),
+        );
+        scope.sort_unstable();
+    }
+    scope.into()
+}
+
+/// The end of the section with this header.
+fn section_end(lines: &[Line], header: usize) -> u32 {
+    let behind = lines[header + 1..].iter().position(|line| line.kind() == LineKind::Section);
+    let last = behind.map_or(lines.len() - 1, |offset| header + offset);
+    lines[last].full_span().end
 }
 
 #[cfg(test)]
@@ -217,6 +264,29 @@ mod tests {
     }
 
     #[test]
+    fn an_object_has_its_sub_objects_with_it() {
+        let text = ";edskit: allow(OBJ013) why\n[2000]\nParameterName=a\n[2001sub0]\nDataType=0x0007\n[2000sub0]\nDataType=0x0007\n";
+        assert_eq!(codes(text), ["5:10 OBJ013 sub-index 00h of 2001h is UNSIGNED32 instead of UNSIGNED8"]);
+        let sub = text.replace("[2000]", "[2000sub1]");
+        assert_eq!(codes(&sub).len(), 3, "a sub-object stands for itself");
+    }
+
+    #[test]
+    fn case_does_not_matter_and_what_is_nearly_right_is_reported() {
+        for comment in
+            [";EDSKIT: allow(OBJ013)", "; EdsKit:ALLOW(obj013) why", " ;edskit: Allow-File(OBJ013)"]
+        {
+            let text = format!("[2000sub0]\n{comment}\nDataType=0x0007\n");
+            assert_eq!(codes(&text), [""; 0], "{comment}");
+        }
+        for comment in [";edskit allow(OBJ013)", "; EDSKIT : allow(OBJ013)"] {
+            let found = codes(&format!("[2000sub0]\n{comment}\nDataType=0x0007\n"));
+            assert_eq!(found.len(), 2, "{comment}");
+            assert!(found[0].contains("SYN027") && found[0].ends_with("cannot be read"), "{comment}");
+        }
+    }
+
+    #[test]
     fn other_comments_mean_nothing() {
         let text = "[2000sub0]\n;edskit\n; see edskit: allow(OBJ013)\n;\nDataType=0x0007\n";
         assert_eq!(codes(text).len(), 1);
@@ -224,7 +294,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_read_is_reported() {
-        let orders = ["allow OBJ013", "alow(OBJ013)", "allow(OBJ013", "allow()", "Allow(OBJ013)", ""];
+        let orders = ["allow OBJ013", "alow(OBJ013)", "allow(OBJ013", "allow()", ""];
         for order in orders {
             let text = format!("[2000sub0]\n;edskit: {order}\nDataType=0x0007\n");
             let comment = format!(";edskit: {order}");

@@ -14,6 +14,7 @@ mod format;
 mod key;
 pub mod meant;
 pub mod nature;
+pub mod own_file;
 mod section;
 mod similar;
 mod span;
@@ -25,7 +26,7 @@ pub use datasheet::{
     ResolvedType, Section, SubExtension, SubObject, Tool, Topology, TopologyNode, same_meaning,
 };
 pub use document::{Document, Encoding, Line, LineEnding, LineKind, Position, is_merge_marker};
-pub use format::format;
+pub use format::{Unformattable, format, try_format};
 pub use key::{Key, KeyGroup, KeyName, Shape};
 pub use section::{ModuleSection, SectionKind};
 pub use similar::nearest;

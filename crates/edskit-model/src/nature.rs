@@ -1,5 +1,7 @@
 //! What a file is, from its first bytes: an EDS, or something else with the same ending.
 
+use crate::own_file::OwnFile;
+
 /// What the bytes of a file look like.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Nature {
@@ -26,6 +28,8 @@ pub enum Nature {
     EthernetIp,
     /// JSON.
     Json,
+    /// A file of edskit itself, which another command takes.
+    Own(OwnFile),
     /// Bytes that are no text.
     Binary,
 }
@@ -64,6 +68,9 @@ impl Nature {
         }
         if text.starts_with(b"<?xml") || text.starts_with(b"<!--") || text.starts_with(b"<ISO15745") {
             return Self::Xml { canopen: contains(text, b"ISO15745") || contains(text, b"CANopen") };
+        }
+        if let Some(own) = std::str::from_utf8(bytes).ok().and_then(OwnFile::of) {
+            return Self::Own(own);
         }
         if text.starts_with(b"{") {
             return Self::Json;
@@ -139,6 +146,7 @@ mod tests {
             (b"<!DOCTYPE html><html>", Nature::Html),
             (b"{\"message\": \"Not Found\"}", Nature::Json),
             (b"$ EZ-EDS\n[File]\nDescText = \"x\";\n[Device]\n", Nature::EthernetIp),
+            (b"[gateway]\n427 = 5\n", Nature::Own(OwnFile::Parameters)),
             (b"\x7FELF\x02\x01\x01\0\0\0\0\0\0\0\0\0", Nature::Binary),
         ] {
             assert_eq!(Nature::of(bytes), nature, "{bytes:?}");

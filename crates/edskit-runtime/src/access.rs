@@ -1,9 +1,16 @@
-//! What a client's read or write of an entry means: checks, hooks, and what follows for the services.
+//! What a value means that is brought to an entry: checks, hooks, and what follows for the services.
+//!
+//! A rule on a value holds on every way by which the value comes. So there are two questions, each with one answer for
+//! each object: whether an entry can have a value at all ([`Context::check_parameter`]), which is asked of SDO clients, of
+//! RPDOs, of stored values, and by each service of what it finds in the dictionary; and whether it can have it now
+//! ([`Context::check_change`]). What follows from a value that is there is one function of each service.
 
 use crate::Value;
 use crate::context::Context;
 use crate::dictionary::{Entry, Position};
+use crate::error_behaviour::check_error_behaviour;
 use crate::pdo::Place;
+use crate::sync::check_sync_overflow;
 use edskit_types::{AbortCode, CobId, Index, SubIndex};
 
 /// Where 1010h and 1011h take commands: from sub-index 01h on.
@@ -43,41 +50,51 @@ impl<'a> Context<'a> {
     /// A client writes an entry.
     pub(crate) fn write(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         self.app.check_write(&self.objects, entry, Some(data.len()))?;
-        self.objects.check_value(position, entry, data)?;
-        self.check_communication_object(position, entry, data)?;
-        self.app.before_write(&mut self.objects, entry, data)?;
-        let is_command = [Index::STORE_PARAMETERS, Index::RESTORE_PARAMETERS].contains(&entry.index);
-        if !is_command {
-            self.objects.store(position, data);
-            self.apply_communication_object(entry);
-        }
+        self.bring(position, entry, data)?;
         self.app.after_write(&mut self.objects, entry);
         Ok(())
     }
 
-    /// What the standard says about single objects of the communication profile.
-    fn check_communication_object(
-        &mut self,
-        position: Position,
-        entry: &Entry,
-        data: &[u8],
-    ) -> Result<(), AbortCode> {
+    /// A client or an RPDO brings a value of the right length to an entry.
+    pub(crate) fn bring(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+        self.objects.check_value(position, entry, data)?;
+        let is_of_services = is_communication(entry.index);
+        if is_of_services {
+            // Of a value that cannot be, at a time when none can, the time is said.
+            self.check_change(entry, data)?;
+            self.check_parameter(entry, data)?;
+        }
+        self.app.before_write(&mut self.objects, entry, data)?;
+        if is_command(entry) {
+            return self.do_command(entry.index, entry.sub_index);
+        }
+        let is_event = self.app.write_is_event(&self.objects, entry) && self.objects.bytes(position) != data;
+        self.objects.store(position, data);
+        if is_of_services {
+            self.parameter_changed(entry);
+        }
+        if is_event {
+            self.value_changed(position);
+        }
+        Ok(())
+    }
+
+    /// Whether an entry of 1000h to 1FFFh can have a value at all: what the standard says about single objects.
+    fn check_parameter(&mut self, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         let (index, sub_index) = (entry.index, entry.sub_index);
-        let old = CobId(u32::from_bytes(self.objects.bytes(position)));
-        let new = CobId(u32::from_bytes(data));
+        let cob_id = CobId(u32::from_bytes(data));
         match index {
-            Index::PREDEFINED_ERROR_FIELD => self.check_history(data),
-            Index::SYNC_COB_ID => self.check_sync_cob_id(old, new),
-            Index::STORE_PARAMETERS if sub_index.0 >= FIRST_COMMAND => self.store_parameters(sub_index, data),
-            Index::RESTORE_PARAMETERS if sub_index.0 >= FIRST_COMMAND => {
-                self.restore_parameters(sub_index, data)
+            Index::SYNC_COB_ID => self.check_sync(cob_id),
+            Index::STORE_PARAMETERS | Index::RESTORE_PARAMETERS if is_command(entry) => {
+                self.check_command(index, data)
             }
-            Index(0x1012) => self.check_time_cob_id(old, new),
-            Index::EMCY_COB_ID => self.check_emcy_cob_id(old, new),
-            Index::CONSUMER_HEARTBEAT if sub_index.0 > 0 => self.check_consumer(sub_index, new.0),
-            Index(0x1019) => self.check_sync_overflow(u8::from_bytes(data)),
-            Index(0x1200..=0x127F) => self.check_server(index, sub_index, new),
-            _ => match Self::pdo_at(index) {
+            Index(0x1012) => self.check_time(cob_id),
+            Index::EMCY_COB_ID => self.check_cob_id(cob_id),
+            Index::CONSUMER_HEARTBEAT if sub_index.0 > 0 => self.check_consumer(sub_index, cob_id.0),
+            Index(0x1019) => check_sync_overflow(u8::from_bytes(data)),
+            Index(0x1029) if sub_index.0 > 0 => check_error_behaviour(u8::from_bytes(data)),
+            Index(0x1201..=0x127F) => self.check_server(sub_index, cob_id),
+            _ => match Place::at(index) {
                 Some((place, false)) => self.check_communication(place, sub_index, data),
                 Some((place, true)) => self.check_mapping(place, sub_index, data),
                 None => Ok(()),
@@ -85,25 +102,85 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// What a new value means for the services.
-    fn apply_communication_object(&mut self, entry: &Entry) {
-        match entry.index {
-            Index::SYNC_COB_ID | Index(0x1006) => self.sync_written(),
-            Index(0x100C | 0x100D) => self.guarding_written(),
-            Index::CONSUMER_HEARTBEAT => self.consumer_written(entry.sub_index),
-            Index::PRODUCER_HEARTBEAT => self.heartbeat_time_written(),
-            Index(0x1200..=0x127F) => self.configure_server(entry.index),
-            index => match Self::pdo_at(index) {
-                Some((place, false)) => self.load_communication(place),
-                Some((place, true)) => self.mapping_written(place, entry.sub_index),
-                None => {}
+    /// Whether an entry can have a value now: what is valid has to be made invalid first, and the like.
+    fn check_change(&mut self, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+        let (index, sub_index) = (entry.index, entry.sub_index);
+        let new = CobId(u32::from_bytes(data));
+        match index {
+            Index::PREDEFINED_ERROR_FIELD if sub_index.0 == 0 => self.check_history(data),
+            Index::SYNC_COB_ID => self.check_sync_change(new),
+            Index(0x1012) => self.check_time_change(new),
+            Index::EMCY_COB_ID => self.check_emcy_change(new),
+            Index(0x1019) => self.check_overflow_change(),
+            Index(0x1201..=0x127F) => self.check_server_change(index, sub_index, new),
+            _ => match Place::at(index) {
+                Some((place, false)) => self.check_communication_change(place, sub_index, new),
+                Some((place, true)) => self.check_mapping_change(place, sub_index),
+                None => Ok(()),
             },
         }
     }
 
-    fn mapping_written(&mut self, place: Place, sub_index: SubIndex) {
-        if sub_index.0 == 0 {
-            self.load_mapping(place);
+    /// What follows for the services from the value that an entry of 1000h to 1FFFh has now, and what is left of what
+    /// they had under the old one.
+    pub(crate) fn parameter_changed(&mut self, entry: &Entry) {
+        match entry.index {
+            Index::SYNC_COB_ID | Index(0x1006 | 0x1019) => self.sync_changed(),
+            Index(0x100C | 0x100D) => self.guarding_changed(),
+            Index::EMCY_COB_ID => self.send_emergencies(),
+            Index::CONSUMER_HEARTBEAT => self.consumer_changed(entry.sub_index),
+            Index::PRODUCER_HEARTBEAT => self.heartbeat_time_changed(),
+            Index(0x1200..=0x127F) => self.configure_server(entry.index),
+            index => match Place::at(index) {
+                Some((place, false)) => self.pdo_changed(place, false),
+                // Entries do not count before their number does.
+                Some((place, true)) if entry.sub_index.0 == 0 => self.pdo_changed(place, true),
+                _ => {}
+            },
         }
     }
+
+    /// Whether an entry can have the value that it has, wherever that comes from. A mapping counts as a whole, and
+    /// entries beyond the number of those that count have no meaning.
+    pub(crate) fn check_present(&mut self, position: Position, entry: &Entry) -> Result<(), AbortCode> {
+        let mut value = [0; 8];
+        let bytes = self.objects.bytes(position);
+        let value = value.get_mut(..bytes.len()).unwrap_or_default();
+        crate::dictionary::copy(value, bytes);
+        self.objects.check_value(position, entry, value)?;
+        let is_mapped = matches!(Place::at(entry.index), Some((_, true)));
+        if is_communication(entry.index) && !is_command(entry) && !is_mapped {
+            self.check_parameter(entry, value)?;
+        }
+        Ok(())
+    }
+
+    /// Calls `report` with every entry whose value is one that a client could not write.
+    pub(crate) fn refused(&mut self, report: &mut dyn FnMut(&Entry, AbortCode)) {
+        for (position, entry) in self.objects.table.all() {
+            // What follows the node-ID is not known without one.
+            if self.core.node_id.is_none() || !self.exists(entry) {
+                continue;
+            }
+            let is_count = matches!(Place::at(entry.index), Some((_, true))) && entry.sub_index.0 == 0;
+            let checked = match self.objects.bytes(position).first() {
+                Some(count) if is_count => self.check_parameter(entry, &[*count]),
+                _ => self.check_present(position, entry),
+            };
+            if let Err(code) = checked {
+                report(entry, code);
+            }
+        }
+    }
+}
+
+/// Whether an index is in the area of the communication profile.
+pub(crate) fn is_communication(index: Index) -> bool {
+    (0x1000..0x2000).contains(&index.0)
+}
+
+/// Whether what is written into an entry is a command and no value.
+fn is_command(entry: &Entry) -> bool {
+    let takes_commands = matches!(entry.index, Index::STORE_PARAMETERS | Index::RESTORE_PARAMETERS);
+    takes_commands && entry.sub_index.0 >= FIRST_COMMAND
 }

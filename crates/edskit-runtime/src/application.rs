@@ -18,10 +18,12 @@ pub trait Application {
         Ok(())
     }
 
-    /// An SDO client is about to write an entry; rights, length and limits are checked already.
+    /// An SDO client or an RPDO is about to write an entry; rights, length and limits are checked already. So a rule of the
+    /// device holds for both.
     ///
     /// # Errors
-    /// The abort code that the client gets; the value then stays as it is.
+    /// The abort code that the client gets, and that [`rpdo_value_refused`](Self::rpdo_value_refused) is told; the value
+    /// then stays as it is.
     fn before_write(
         &mut self,
         objects: &mut Objects<'_>,
@@ -35,6 +37,15 @@ pub trait Application {
     /// An SDO client has written an entry.
     fn after_write(&mut self, objects: &mut Objects<'_>, entry: &Entry) {
         let _ = (objects, entry);
+    }
+
+    /// Whether a value that an SDO client or an RPDO writes is an event of the TPDOs that carry it, as the transmission types
+    /// 00h, FEh and FFh send them; it is none where the value is the same as before. CiA 301 leaves that open. By default
+    /// it is none: the device knows which of its values are events, and says so by
+    /// [`Node::value_changed`](crate::Node::value_changed).
+    fn write_is_event(&mut self, objects: &Objects<'_>, entry: &Entry) -> bool {
+        let _ = (objects, entry);
+        false
     }
 
     /// Whether an SDO client may write so many bytes of an entry that exists; `None` while it has not said how many. The
@@ -104,6 +115,20 @@ pub trait Application {
         Err(AbortCode::CANNOT_TRANSFER)
     }
 
+    /// An SDO client has begun to write a DOMAIN, and the transfer has ended before its time after `offset` bytes: by an
+    /// abort of either side, a wrong checksum, silence, another request, or a change of the NMT state. What
+    /// [`write_domain`](Self::write_domain) has got is not complete.
+    fn domain_broken_off(&mut self, objects: &mut Objects<'_>, entry: &Entry, offset: u32) {
+        let _ = (objects, entry, offset);
+    }
+
+    /// A stored value has no place any more, since an update has changed the dictionary: there is no such entry, it is not
+    /// stored now, or it cannot have this value. The last of these is an error of the device too
+    /// ([`Error::LOST_PARAMETERS`](crate::Error::LOST_PARAMETERS)), and the entry has its default.
+    fn stored_value_dropped(&mut self, objects: &mut Objects<'_>, index: Index, sub_index: SubIndex) {
+        let _ = (objects, index, sub_index);
+    }
+
     /// The NMT state has changed.
     fn state_changed(&mut self, objects: &mut Objects<'_>, from: NmtState, to: NmtState) {
         let _ = (objects, from, to);
@@ -130,8 +155,8 @@ pub trait Application {
         configured
     }
 
-    /// Whether a TPDO, numbered from 1, is sent when the node enters operational. By default it is, unless it waits for a
-    /// SYNC message or a request.
+    /// Whether a TPDO, numbered from 1, is sent when it begins: when the node enters operational, or a client makes the PDO
+    /// valid. By default it is, unless it waits for a SYNC message or a request.
     fn sends_at_start(&mut self, number: u16) -> bool {
         let _ = number;
         true
@@ -142,9 +167,16 @@ pub trait Application {
         let _ = (objects, counter);
     }
 
-    /// The values of an RPDO, numbered from 1, are in the dictionary.
+    /// The values of an RPDO, numbered from 1, are in the dictionary, except those that were refused.
     fn rpdo_received(&mut self, objects: &mut Objects<'_>, number: u16) {
         let _ = (objects, number);
+    }
+
+    /// A value of an RPDO, numbered from 1, was left out with the abort code that a client would get: by the limits of its
+    /// entry, by a rule of CiA 301, or by [`before_write`](Self::before_write). There is no EMCY message for it; the node
+    /// counts them ([`Node::refused_rpdo_values`](crate::Node::refused_rpdo_values)).
+    fn rpdo_value_refused(&mut self, objects: &mut Objects<'_>, number: u16, entry: &Entry, code: AbortCode) {
+        let _ = (objects, number, entry, code);
     }
 
     /// An RPDO, numbered from 1, has not come within its event time.
@@ -172,7 +204,9 @@ pub trait Application {
         let _ = (objects, emergency);
     }
 
-    /// LSS wants a bit rate to be used: after `delay` milliseconds of silence change it, and be silent as long again.
+    /// LSS wants a bit rate to be used: after `delay` milliseconds of silence change it, and be silent as long again. At
+    /// power-on this is the stored one with a delay of 0, before the boot-up message; where the CAN controller needs it
+    /// earlier, [`Commissioning::stored`](crate::Commissioning::stored) gives it.
     fn activate_bit_rate(&mut self, bit_rate: Bitrate, delay: u16) {
         let _ = (bit_rate, delay);
     }

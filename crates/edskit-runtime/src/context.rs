@@ -9,7 +9,7 @@ use crate::queue::Queue;
 use crate::sdo::SdoServer;
 use crate::sync::Sync;
 use crate::{Application, Frame, Instant, Objects, Settings, Storage};
-use edskit_types::{AbortCode, CanId, CobId, IdentifierRules, NmtState, NodeId};
+use edskit_types::{AbortCode, CanId, CobId, IdentifierRules, Index, NmtState, NodeId};
 
 /// The state of a node besides its dictionary.
 #[derive(Debug)]
@@ -19,12 +19,20 @@ pub(crate) struct Core {
     pub(crate) node_id: Option<NodeId>,
     /// The node-ID from the next reset on.
     pub(crate) pending_node_id: Option<NodeId>,
+    /// The node-ID in use at the last reset of the node: it is in the values from 2000h on that follow the node-ID.
+    pub(crate) node_id_of_reset: Option<NodeId>,
     pub(crate) state: NmtState,
     /// Whether the first initialisation is done.
     pub(crate) has_started: bool,
     /// Whether the device holds the boot-up back.
     pub(crate) is_held: bool,
     pub(crate) queue: Queue,
+    /// Whether frames were being lost when that was looked at last.
+    pub(crate) has_overrun: bool,
+    /// The TPDO for which the queue had no room, counted from 0: it is the next one.
+    pub(crate) next_tpdo: u16,
+    /// How many values of RPDOs were refused.
+    pub(crate) refused_values: u32,
     pub(crate) emcy: Emcy,
     pub(crate) producer: Producer,
     pub(crate) guarding: Guarding,
@@ -56,8 +64,10 @@ impl Context<'_> {
             return;
         }
         match can_id.raw() {
-            0 => self.nmt_command(frame),
             0x7E5 if self.core.settings.has_lss => self.lss_request(frame),
+            // Without a node-ID there is nothing but LSS.
+            _ if self.core.node_id.is_none() => {}
+            0 => self.nmt_command(frame),
             0x701..=0x77F if frame.is_remote() => self.guarding_request(can_id),
             0x701..=0x77F => self.heartbeat_received(can_id, frame),
             _ => self.receive_configured(can_id, frame),
@@ -90,9 +100,9 @@ impl Context<'_> {
             return;
         }
         if self.core.queue.take_overflow() {
-            self.raise(crate::Error::CAN_OVERRUN, 0, [0; 5]);
+            self.overrun_found(true);
         } else if self.core.queue.room() > 0 {
-            self.clear(crate::Error::CAN_OVERRUN, 0);
+            self.overrun_found(false);
         }
         self.poll_heartbeat();
         self.poll_consumers();
@@ -104,6 +114,12 @@ impl Context<'_> {
         self.send_emergencies();
     }
 
+    /// Whether frames are being lost.
+    fn overrun_found(&mut self, is_present: bool) {
+        let was_present = core::mem::replace(&mut self.core.has_overrun, is_present);
+        self.found(crate::Error::CAN_OVERRUN, was_present, is_present, [0; 5]);
+    }
+
     /// When there will be something to do.
     pub(crate) fn next_deadline(&self) -> Instant {
         if !self.core.has_started {
@@ -113,17 +129,19 @@ impl Context<'_> {
             return Instant::NEVER;
         }
         let has_room = self.core.queue.room() > 0;
-        let is_mute = self.core.state == NmtState::Stopped || !has_room;
+        // What only the queue holds back is due when it has room.
+        let with_room =
+            |deadline: Instant| if has_room || deadline > self.now { deadline } else { Instant::NEVER };
         let services = [
-            self.core.producer.deadline(),
+            with_room(self.core.producer.deadline()),
             self.core.guarding.deadline(),
-            self.core.sync.deadline(),
-            if is_mute { Instant::NEVER } else { self.core.emcy.deadline() },
+            with_room(self.core.sync.deadline()),
+            self.emcy_deadline(),
         ];
         let consumers = self.consumers.iter().map(HeartbeatConsumer::deadline);
         let servers = self.servers.iter().map(|server| server.deadline(has_room));
         let rpdos = self.rpdos.iter().map(Rpdo::deadline);
-        let tpdos = self.tpdos.iter().map(|tpdo| tpdo.deadline(has_room));
+        let tpdos = self.tpdos.iter().map(|tpdo| tpdo.deadline(self.now, has_room));
         let all = services.into_iter().chain(consumers).chain(servers).chain(rpdos).chain(tpdos);
         all.min().unwrap_or(Instant::NEVER).max(self.now)
     }
@@ -133,12 +151,20 @@ impl Context<'_> {
         matches!(self.core.state, NmtState::PreOperational | NmtState::Operational)
     }
 
-    /// What holds for every COB-ID that a client writes: 29-bit identifiers are not supported, and what CiA 301 restricts
+    /// What holds for every COB-ID: 29-bit identifiers are not supported, and what CiA 301 restricts
     /// cannot be used by a valid one.
     pub(crate) fn check_cob_id(&self, cob_id: CobId) -> Result<(), AbortCode> {
         if IdentifierRules::CIA_301.fault(cob_id).is_some() {
             return Err(AbortCode::INVALID_VALUE);
         }
         Ok(())
+    }
+
+    /// The identifier in an entry whose bit 31 says that the service does not exist; `None` where it says so, and where the
+    /// value is one that a client could not write.
+    #[inline(never)]
+    pub(crate) fn valid_can_id(&self, index: Index, sub_index: u8) -> Option<CanId> {
+        let cob_id = self.objects.value(index, sub_index).map(CobId)?;
+        (cob_id.is_valid() && self.check_cob_id(cob_id).is_ok()).then(|| cob_id.can_id())
     }
 }

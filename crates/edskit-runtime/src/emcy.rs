@@ -1,20 +1,23 @@
 //! EMCY: errors, the error register 1001h, the history 1003h, and the message (CiA 301 v4.2, 7.2.7).
+//!
+//! What the services of the node find they know themselves: a heartbeat consumer whether its node is missing, an RPDO
+//! whether it is late. Here they are only counted, so there is room for all of them. What the device raises is listed.
 
 use crate::context::Context;
 use crate::ring::Ring;
-use crate::time::Timer;
 use crate::{Instant, Microseconds, Pattern};
-use edskit_types::{AbortCode, CobId, Index};
+use edskit_types::{AbortCode, CanId, CobId, Index};
 
-/// How many errors can be present at once; further ones are in the register, but cannot be told from each other.
-const MOST_ERRORS: usize = 8;
+/// How many errors of the device, and groups of parameters that were lost, can be present at once.
+const MOST_ERRORS: usize = 32;
 /// How many messages can wait for the inhibit time.
 const MOST_WAITING: usize = 8;
+const INHIBIT_TIME: Index = Index(0x1015);
 
 /// A kind of error: its code and its bits of the error register (CiA 301 v4.2, 7.2.7.1 and 7.5.2.2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Error {
-    /// The emergency error code.
+    /// The emergency error code, which is not 0000h.
     pub code: u16,
     /// The bits of the error register 1001h; bit 0, generic error, is added to all.
     pub register: u8,
@@ -41,6 +44,8 @@ impl Error {
     /// The bit of the error register for errors of communication.
     pub const COMMUNICATION: u8 = 1 << 4;
     const GENERIC: u8 = 1;
+    /// What stands where there is no error.
+    const NONE: Self = Self { code: 0, register: 0 };
 }
 
 /// What an EMCY message says.
@@ -54,94 +59,125 @@ pub struct Emergency {
     pub info: [u8; 5],
 }
 
-/// An error that is present. `source` tells errors of one kind apart: the number of a PDO or a node-ID, say.
+/// An error that is present. `source` tells errors of one kind apart: the number of a group or a sensor, say.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Present {
     error: Error,
     source: u16,
 }
 
+impl Present {
+    const NONE: Self = Self { error: Error::NONE, source: 0 };
+}
+
 #[derive(Debug)]
 pub(crate) struct Emcy {
-    present: [Option<Present>; MOST_ERRORS],
-    /// The messages that wait. The oldest stay: they tell what came first.
+    /// What the device has raised and not cleared.
+    present: [Present; MOST_ERRORS],
+    /// How many heartbeats and guardings are missing.
+    missing: u16,
+    /// Whether frames are being lost, as a number.
+    overruns: u16,
+    /// How many other errors of services are present.
+    others: u16,
+    /// The messages that wait: the oldest, which tell what came first, and the newest, which tells what is.
     waiting: Ring<Emergency, MOST_WAITING>,
-    /// Until when no message may be sent.
-    inhibit: Timer,
+    /// When the last message was sent.
+    sent: Option<Instant>,
 }
 
 impl Emcy {
     pub(crate) const fn new() -> Self {
         Self {
-            present: [None; MOST_ERRORS],
+            present: [Present::NONE; MOST_ERRORS],
+            missing: 0,
+            overruns: 0,
+            others: 0,
             waiting: Ring::new(Emergency { code: 0, register: 0, info: [0; 5] }),
-            inhibit: Timer::OFF,
+            sent: None,
         }
     }
 
     /// The error register that follows from what is present.
     fn register(&self) -> u8 {
-        let bits = |present: &Present| present.error.register | Error::GENERIC;
-        self.present.iter().flatten().fold(0, |all, present| all | bits(present))
+        let present = self.present.iter().filter(|present| present.error != Error::NONE);
+        let own = (self.missing > 0 || self.overruns > 0 || self.others > 0)
+            .then_some(Error::COMMUNICATION | Error::GENERIC);
+        present.fold(own.unwrap_or(0), |all, present| all | present.error.register | Error::GENERIC)
     }
 
-    fn is_present(&self, code: u16, source: u16) -> bool {
-        self.present.iter().flatten().any(|present| present.error.code == code && present.source == source)
+    /// How many errors of this kind the services have found.
+    fn count(&mut self, error: Error) -> &mut u16 {
+        match error {
+            Error::HEARTBEAT => &mut self.missing,
+            Error::CAN_OVERRUN => &mut self.overruns,
+            _ => &mut self.others,
+        }
     }
 
     /// What the red indicator shows: of several errors the one that stands first here.
     pub(crate) fn pattern(&self) -> Pattern {
-        let has = |error: Error| self.present.iter().flatten().any(|present| present.error == error);
-        if has(Error::HEARTBEAT) {
+        let has = |error: Error| self.present.iter().any(|present| present.error == error);
+        if self.missing > 0 || has(Error::HEARTBEAT) {
             Pattern::DoubleFlash
-        } else if has(Error::ERROR_PASSIVE) || has(Error::CAN_OVERRUN) {
+        } else if self.overruns > 0 || has(Error::ERROR_PASSIVE) || has(Error::CAN_OVERRUN) {
             Pattern::SingleFlash
         } else {
             Pattern::Off
         }
     }
-
-    /// When a waiting message may be sent.
-    pub(crate) fn deadline(&self) -> Instant {
-        if self.waiting.is_empty() {
-            Instant::NEVER
-        } else if self.inhibit.is_running() {
-            self.inhibit.deadline()
-        } else {
-            Instant::default()
-        }
-    }
 }
 
 impl Context<'_> {
-    /// An error has occurred. One that is present already is not told again.
+    /// An error of the device has occurred. One that is present already is not told again.
     pub(crate) fn raise(&mut self, error: Error, source: u16, info: [u8; 5]) {
-        if self.core.emcy.is_present(error.code, source) {
+        let is_it = |present: &Present| present.error.code == error.code && present.source == source;
+        if self.core.emcy.present.iter().any(is_it) {
             return;
         }
-        let free = self.core.emcy.present.iter_mut().find(|present| present.is_none());
-        if let Some(free) = free {
-            *free = Some(Present { error, source });
+        if let Some(free) = self.core.emcy.present.iter_mut().find(|present| **present == Present::NONE) {
+            *free = Present { error, source };
         }
-        let register = self.core.emcy.register() | error.register | Error::GENERIC;
-        self.tell(Emergency { code: error.code, register, info });
+        self.occurred(error, info);
+    }
+
+    /// An error of the device has gone.
+    pub(crate) fn clear(&mut self, error: Error, source: u16) {
+        let wanted = Present { error, source };
+        if let Some(present) = self.core.emcy.present.iter_mut().find(|present| **present == wanted) {
+            *present = Present::NONE;
+            self.tell(0, 0, [0; 5]);
+        }
+    }
+
+    /// A service finds an error present or not, which it has found so or not before.
+    #[inline(never)]
+    pub(crate) fn found(&mut self, error: Error, was_present: bool, is_present: bool, info: [u8; 5]) {
+        if was_present == is_present {
+            return;
+        }
+        let count = self.core.emcy.count(error);
+        if is_present {
+            *count = count.saturating_add(1);
+            self.occurred(error, info);
+        } else {
+            *count = count.saturating_sub(1);
+            self.tell(0, 0, [0; 5]);
+        }
+    }
+
+    #[inline(never)]
+    fn occurred(&mut self, error: Error, info: [u8; 5]) {
+        self.tell(error.code, error.register | Error::GENERIC, info);
         self.remember(error.code, info);
     }
 
-    /// An error has gone.
-    pub(crate) fn clear(&mut self, error: Error, source: u16) {
-        let wanted = Some(Present { error, source });
-        if let Some(present) = self.core.emcy.present.iter_mut().find(|present| **present == wanted) {
-            *present = None;
-            let register = self.core.emcy.register();
-            self.tell(Emergency { code: 0, register, info: [0; 5] });
-        }
-    }
-
-    fn tell(&mut self, emergency: Emergency) {
+    /// Tells by a message that an error has occurred, or with the code 0000h that one has gone.
+    fn tell(&mut self, code: u16, register: u8, info: [u8; 5]) {
+        let emergency = Emergency { code, register: register | self.core.emcy.register(), info };
         self.objects.set_value(Index::ERROR_REGISTER, 0, emergency.register);
         self.app.emergency(&mut self.objects, &emergency);
-        self.core.emcy.waiting.push(emergency);
+        self.core.emcy.waiting.push_over(emergency);
         self.send_emergencies();
     }
 
@@ -160,18 +196,38 @@ impl Context<'_> {
         self.objects.set_value(field, 0, count.saturating_add(1).min(capacity));
     }
 
-    /// 1003h sub-index 00h is written: only 0, which clears the history.
+    /// What 1003h sub-index 00h can be set to: only 0, which clears the history.
     pub(crate) fn check_history(&self, data: &[u8]) -> Result<(), AbortCode> {
         if data == [0] { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
     }
 
-    /// 1014h is written.
-    pub(crate) fn check_emcy_cob_id(&self, old: CobId, new: CobId) -> Result<(), AbortCode> {
-        self.check_cob_id(new)?;
-        if old.is_valid() && new.is_valid() && old.can_id() != new.can_id() {
-            return Err(AbortCode::INVALID_VALUE);
+    /// 1014h is about to be written: a valid identifier has to be made invalid before it can change.
+    pub(crate) fn check_emcy_change(&self, new: CobId) -> Result<(), AbortCode> {
+        match self.emcy_can_id() {
+            Some(old) if new.is_valid() && old != new.can_id() => Err(AbortCode::INVALID_VALUE),
+            _ => Ok(()),
         }
-        Ok(())
+    }
+
+    /// The identifier of the message; `None` where 1014h is not valid or names one that cannot be used.
+    fn emcy_can_id(&self) -> Option<CanId> {
+        self.valid_can_id(Index::EMCY_COB_ID, 0)
+    }
+
+    /// Until when no message may be sent: 1015h, as it is now, after the last one.
+    fn inhibited_until(&self) -> Instant {
+        let time = Microseconds::from_inhibit_time(self.objects.value(INHIBIT_TIME, 0).unwrap_or(0));
+        self.core.emcy.sent.map_or(Instant::default(), |sent| sent + time)
+    }
+
+    /// When a waiting message can be sent.
+    pub(crate) fn emcy_deadline(&self) -> Instant {
+        let waits = !self.core.emcy.waiting.is_empty() && self.is_communicating();
+        if waits && self.core.queue.room() > 0 && self.emcy_can_id().is_some() {
+            self.inhibited_until()
+        } else {
+            Instant::NEVER
+        }
     }
 
     /// Sends what waits, as far as the state, the inhibit time and the queue allow.
@@ -180,25 +236,17 @@ impl Context<'_> {
         if self.core.emcy.waiting.is_empty() || !self.is_communicating() {
             return;
         }
-        let Some(cob_id) = self.objects.value(Index::EMCY_COB_ID, 0).map(CobId) else {
-            self.core.emcy.waiting.clear();
+        let Some(can_id) = self.emcy_can_id() else {
+            // What was is of no use any more when the service exists again; what is then is.
+            self.core.emcy.waiting.keep_newest();
             return;
         };
-        let inhibit = Microseconds::from_inhibit_time(self.objects.value(Index(0x1015), 0).unwrap_or(0));
-        loop {
-            let is_inhibited =
-                self.core.emcy.inhibit.is_running() && !self.core.emcy.inhibit.is_due(self.now);
-            if is_inhibited || self.core.queue.room() == 0 {
-                return;
-            }
+        while self.core.queue.room() > 0 && self.inhibited_until() <= self.now {
             let Some(emergency) = self.core.emcy.waiting.pop() else { return };
-            if cob_id.is_valid() {
-                let [low, high] = emergency.code.to_le_bytes();
-                let [a, b, c, d, e] = emergency.info;
-                let data = [low, high, emergency.register, a, b, c, d, e];
-                self.core.queue.send(cob_id.can_id(), &data);
-                self.core.emcy.inhibit = Timer::after(self.now, inhibit);
-            }
+            let [low, high] = emergency.code.to_le_bytes();
+            let [a, b, c, d, e] = emergency.info;
+            self.core.queue.send(can_id, &[low, high, emergency.register, a, b, c, d, e]);
+            self.core.emcy.sent = Some(self.now);
         }
     }
 }

@@ -6,8 +6,6 @@ use crate::time::Timer;
 use crate::{Error, Instant, Microseconds};
 use edskit_types::{CanId, Index};
 
-/// What tells this error apart from a missing heartbeat of a node.
-const MASTER: u16 = 0;
 const GUARD_TIME: Index = Index(0x100C);
 const LIFE_TIME_FACTOR: Index = Index(0x100D);
 
@@ -16,11 +14,13 @@ pub(crate) struct Guarding {
     toggle: bool,
     /// Runs from the first request on.
     life: Timer,
+    /// Whether it is an error that the master's requests are missing.
+    is_missing: bool,
 }
 
 impl Guarding {
     pub(crate) const fn new() -> Self {
-        Self { toggle: false, life: Timer::OFF }
+        Self { toggle: false, life: Timer::OFF, is_missing: false }
     }
 
     pub(crate) fn deadline(&self) -> Instant {
@@ -37,11 +37,28 @@ impl Context<'_> {
         if own != Some(can_id) || !is_guarded || self.core.producer.is_running() {
             return;
         }
-        let toggle = u8::from(self.core.guarding.toggle) << 7;
-        self.core.queue.send(can_id, &[toggle | self.core.state.code()]);
-        self.core.guarding.toggle = !self.core.guarding.toggle;
+        // The toggle bit tells the master which answers were sent.
+        if self.core.queue.room() > 0 {
+            let toggle = u8::from(self.core.guarding.toggle) << 7;
+            self.core.queue.send(can_id, &[toggle | self.core.state.code()]);
+            self.core.guarding.toggle = !self.core.guarding.toggle;
+        } else {
+            self.core.queue.note_loss();
+        }
         self.core.guarding.life = Timer::after(self.now, self.life_time());
-        self.clear(Error::HEARTBEAT, MASTER);
+        self.master_found(false);
+    }
+
+    /// Whether the requests of the master are missing.
+    fn master_found(&mut self, is_missing: bool) {
+        let was_missing = core::mem::replace(&mut self.core.guarding.is_missing, is_missing);
+        self.found(Error::HEARTBEAT, was_missing, is_missing, [0; 5]);
+    }
+
+    /// Guarding ends with all it had: there is one error control protocol at a time (7.2.8.3).
+    pub(crate) fn end_guarding(&mut self) {
+        self.master_found(false);
+        self.core.guarding = Guarding::new();
     }
 
     /// The product of 100Ch and 100Dh.
@@ -51,8 +68,9 @@ impl Context<'_> {
         Microseconds::from_milliseconds(u32::from(guard_time) * u32::from(factor))
     }
 
-    /// 100Ch or 100Dh has been written.
-    pub(crate) fn guarding_written(&mut self) {
+    /// What follows from 100Ch and 100Dh: a life time that runs begins anew, and an error of the old one is none any more.
+    pub(crate) fn guarding_changed(&mut self) {
+        self.master_found(false);
         if self.core.guarding.life.is_running() {
             self.core.guarding.life = Timer::after(self.now, self.life_time());
         }
@@ -61,7 +79,7 @@ impl Context<'_> {
     pub(crate) fn poll_guarding(&mut self) {
         if self.core.guarding.life.is_due(self.now) {
             self.core.guarding.life = Timer::OFF;
-            self.raise(Error::HEARTBEAT, MASTER, [0; 5]);
+            self.master_found(true);
             self.react_to_communication_error();
         }
     }

@@ -37,11 +37,14 @@ pub struct HeartbeatConsumer {
     /// Runs from the first heartbeat on.
     timer: Timer,
     state: Option<NmtState>,
+    /// Whether that is an error which is present.
+    is_missing: bool,
 }
 
 impl HeartbeatConsumer {
     /// One that monitors nobody.
-    pub const NEW: Self = Self { node_id: None, time: Microseconds(0), timer: Timer::OFF, state: None };
+    pub const NEW: Self =
+        Self { node_id: None, time: Microseconds(0), timer: Timer::OFF, state: None, is_missing: false };
 
     pub(crate) fn deadline(&self) -> Instant {
         self.timer.deadline()
@@ -61,39 +64,45 @@ impl Context<'_> {
         self.app.heartbeat_time(Microseconds::from_milliseconds(milliseconds.into()))
     }
 
-    /// 1017h has been written: the first heartbeat comes at once.
-    pub(crate) fn heartbeat_time_written(&mut self) {
+    /// What follows from 1017h: the first heartbeat comes at once, and guarding ends, over which heartbeat has precedence.
+    pub(crate) fn heartbeat_time_changed(&mut self) {
         let period = self.heartbeat_time();
-        self.core.producer = Producer { timer: Timer::after(self.now, period), period };
-        if period.0 > 0 {
-            self.send_heartbeat();
+        if period.0 == 0 {
+            self.core.producer = Producer::OFF;
+            return;
         }
+        self.core.producer = Producer { timer: Timer::at(self.now), period };
+        self.end_guarding();
+        self.poll_heartbeat();
     }
 
+    /// Sends the heartbeat when it is due, or as soon after that as the queue has room, which is told.
     pub(crate) fn poll_heartbeat(&mut self) {
-        if self.core.producer.timer.is_due(self.now) {
-            self.send_heartbeat();
-            let producer = &mut self.core.producer;
-            producer.timer = producer.timer.again(self.now, producer.period);
+        let (true, Some(node_id)) = (self.core.producer.timer.is_due(self.now), self.core.node_id) else {
+            return;
+        };
+        if self.core.queue.room() == 0 {
+            self.core.queue.note_loss();
+            return;
         }
-    }
-
-    fn send_heartbeat(&mut self) {
-        if let Some(node_id) = self.core.node_id {
-            self.core.queue.send(error_control(node_id), &[self.core.state.code()]);
-        }
+        self.core.queue.send(error_control(node_id), &[self.core.state.code()]);
+        let producer = &mut self.core.producer;
+        producer.timer = producer.timer.again(self.now, producer.period);
     }
 
     /// Takes the monitored nodes from 1016h.
     pub(crate) fn configure_consumers(&mut self) {
-        for (place, consumer) in self.consumers.iter_mut().enumerate() {
-            let value = self.objects.value(Index::CONSUMER_HEARTBEAT, (place + 1) as u8);
-            *consumer = HeartbeatConsumer::of(value.unwrap_or_default());
+        self.consumers.fill(HeartbeatConsumer::NEW);
+        for place in 1..=self.consumers.len() {
+            self.consumer_changed(SubIndex(place as u8));
         }
     }
 
-    /// 1016h is about to be written: no node may be monitored twice.
+    /// What 1016h can be set to: bits 24 to 31 are reserved, and no node may be monitored twice.
     pub(crate) fn check_consumer(&self, sub_index: SubIndex, value: u32) -> Result<(), AbortCode> {
+        if value >> 24 != 0 {
+            return Err(AbortCode::INVALID_VALUE);
+        }
         let Some(node_id) = HeartbeatConsumer::of(value).node_id else { return Ok(()) };
         let others =
             self.consumers.iter().enumerate().filter(|(place, _)| place + 1 != usize::from(sub_index.0));
@@ -101,21 +110,23 @@ impl Context<'_> {
         if is_doubled { Err(AbortCode::PARAMETER_INCOMPATIBLE) } else { Ok(()) }
     }
 
-    /// 1016h has been written: the monitoring of that entry begins anew.
-    pub(crate) fn consumer_written(&mut self, sub_index: SubIndex) {
-        let value = self.objects.value(Index::CONSUMER_HEARTBEAT, sub_index.0).unwrap_or_default();
-        let Some(consumer) =
-            usize::from(sub_index.0).checked_sub(1).and_then(|place| self.consumers.get_mut(place))
-        else {
-            return;
+    /// What follows from an entry of 1016h: its monitoring begins anew, and an error of the old one is none any more.
+    pub(crate) fn consumer_changed(&mut self, sub_index: SubIndex) {
+        let value: u32 = self.objects.value(Index::CONSUMER_HEARTBEAT, sub_index.0).unwrap_or_default();
+        let new = match self.check_consumer(sub_index, value) {
+            Ok(()) => HeartbeatConsumer::of(value),
+            Err(_) => HeartbeatConsumer::NEW,
         };
-        let before = core::mem::replace(consumer, HeartbeatConsumer::of(value));
-        if let Some(node_id) = before.node_id {
-            self.clear(Error::HEARTBEAT, node_id.get().into());
-        }
+        let place = usize::from(sub_index.0).checked_sub(1);
+        let Some(consumer) = place.and_then(|place| self.consumers.get_mut(place)) else { return };
+        let was_missing = core::mem::replace(consumer, new).is_missing;
+        self.found(Error::HEARTBEAT, was_missing, false, [0; 5]);
     }
 
     /// A frame with the identifier of a heartbeat.
+    ///
+    /// Monitoring begins with the first heartbeat (7.5.2.19), and a boot-up message is none: its node may be configured
+    /// for a long time before it sends any. Of a node that is monitored already it is a sign of life.
     pub(crate) fn heartbeat_received(&mut self, can_id: CanId, frame: &Frame) {
         let &[code] = frame.data() else { return };
         let Some(state) = NmtState::from_code(code & 0x7F) else { return };
@@ -123,9 +134,12 @@ impl Context<'_> {
         let is_of = |consumer: &&mut HeartbeatConsumer| consumer.node_id.map(error_control) == Some(can_id);
         let Some(consumer) = self.consumers.iter_mut().find(is_of) else { return };
         let Some(node_id) = consumer.node_id else { return };
-        consumer.timer = Timer::after(now, consumer.time);
+        if state != NmtState::Initialising || consumer.timer.is_running() {
+            consumer.timer = Timer::after(now, consumer.time);
+        }
         let is_new = consumer.state.replace(state) != Some(state);
-        self.clear(Error::HEARTBEAT, node_id.get().into());
+        let was_missing = core::mem::take(&mut consumer.is_missing);
+        self.found(Error::HEARTBEAT, was_missing, false, [0; 5]);
         if is_new {
             self.app.remote_state(&mut self.objects, node_id, Some(state));
         }
@@ -137,7 +151,8 @@ impl Context<'_> {
             let (true, Some(node_id)) = (consumer.timer.is_due(self.now), consumer.node_id) else { continue };
             consumer.timer = Timer::OFF;
             consumer.state = None;
-            self.raise(Error::HEARTBEAT, node_id.get().into(), [node_id.get(), 0, 0, 0, 0]);
+            let was_missing = core::mem::replace(&mut consumer.is_missing, true);
+            self.found(Error::HEARTBEAT, was_missing, true, [node_id.get(), 0, 0, 0, 0]);
             self.app.remote_state(&mut self.objects, node_id, None);
             self.react_to_communication_error();
         }

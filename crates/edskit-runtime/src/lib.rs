@@ -6,7 +6,7 @@
 //!
 //! | idea | items |
 //! |---|---|
-//! | the node, and what drives it | [`Node`], [`Settings`], [`Frame`], [`Instant`] |
+//! | the node, and what drives it | [`Node`], [`Settings`], [`Commissioning`], [`Frame`], [`Instant`] |
 //! | the object dictionary | [`Dictionary`], [`Objects`], [`Handle`], [`Table`], [`Entry`], [`Flags`] |
 //! | what a device adds | [`Application`], [`Storage`] |
 //! | what a main loop drives | [`Device`], [`NodeDevice`] |
@@ -116,6 +116,7 @@ pub use emcy::{Emergency, Error};
 pub use frame::{Frame, MOST_DATA};
 pub use heartbeat::HeartbeatConsumer;
 pub use led::{Leds, Pattern};
+pub use lss::Commissioning;
 pub use node::{Node, Settings};
 pub use pdo::{Mapped, NotSent, Rpdo, Tpdo};
 pub use sdo::SdoServer;

@@ -2,13 +2,15 @@
 
 use crate::context::Context;
 use crate::storage::{Reader, Record};
-use crate::{Frame, MOST_DATA, Reset};
+use crate::{Error, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
 use edskit_types::{Bitrate, CanId, Index, NodeId};
 
 /// The identifier of answers, 7E4h.
 const RESPONSE: u16 = 0x7E4;
 /// The node-ID that means: none.
 const UNCONFIGURED: u8 = 255;
+/// What tells the error of a lost record apart from those of groups of parameters.
+pub(crate) const SOURCE: u16 = 0;
 
 /// Command specifiers.
 mod command {
@@ -40,8 +42,55 @@ pub(crate) struct Lss {
     identified: u8,
     /// Which number of the identity a fast scan looks at.
     scanned: u8,
-    /// The bit rate that was configured last.
-    bit_rate: Option<Bitrate>,
+    /// The bit rate that is stored, or was configured last.
+    pub(crate) bit_rate: Option<Bitrate>,
+}
+
+/// Node-ID and bit rate of a device: what LSS stores together, and what counts from power-on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Commissioning {
+    /// The node-ID; `None` where the node waits for one.
+    pub node_id: Option<NodeId>,
+    /// The bit rate; `None` where LSS has stored none, so that it is up to the device.
+    pub bit_rate: Option<Bitrate>,
+}
+
+impl Commissioning {
+    /// What a node with this storage and these settings will have at power-on. A firmware needs the bit rate before its CAN
+    /// controller, and so its node, can begin.
+    ///
+    /// What LSS has stored counts, a bit rate only if it is one of the settings. The node-ID is that of the settings where
+    /// nothing is stored or the record is torn, and where the device has no LSS.
+    ///
+    /// ```
+    /// use edskit_runtime::{Commissioning, NoStorage, Settings};
+    ///
+    /// let commissioning = Commissioning::stored(&mut NoStorage, &Settings::default());
+    /// assert_eq!((commissioning.node_id, commissioning.bit_rate), (Settings::default().node_id, None));
+    /// ```
+    pub fn stored(storage: &mut dyn Storage, settings: &Settings) -> Self {
+        Self::read(storage, settings).0
+    }
+
+    /// The same, and whether something was stored that cannot be read.
+    pub(crate) fn read(storage: &mut dyn Storage, settings: &Settings) -> (Self, bool) {
+        let none = Self { node_id: settings.node_id, bit_rate: None };
+        if !settings.has_lss {
+            return (none, false);
+        }
+        let mut record = [0; 6];
+        let length = Reader::new(storage, Record::Lss).read(&mut record);
+        let [node_id, not_node_id, low, high, not_low, not_high] = record;
+        if length == Ok(0) {
+            return (none, false);
+        }
+        if length != Ok(record.len()) || node_id != !not_node_id || low != !not_low || high != !not_high {
+            return (none, true);
+        }
+        let bit_rate = Bitrate::from_kbit_per_s(u16::from_le_bytes([low, high]).into());
+        let bit_rate = bit_rate.filter(|bit_rate| settings.bit_rates.has(*bit_rate));
+        (Self { node_id: NodeId::new(node_id).ok(), bit_rate }, false)
+    }
 }
 
 impl Lss {
@@ -94,7 +143,8 @@ impl Context<'_> {
             }
             command::CONFIGURE_BIT_TIMING => {
                 let bit_rate = Bitrate::from_lss_index(b2);
-                let supported = bit_rate.filter(|bit_rate| b1 == 0 && self.supports(*bit_rate));
+                let bit_rates = self.core.settings.bit_rates;
+                let supported = bit_rate.filter(|bit_rate| b1 == 0 && bit_rates.has(*bit_rate));
                 if supported.is_some() {
                     self.core.lss.bit_rate = supported;
                 }
@@ -119,10 +169,6 @@ impl Context<'_> {
             }
             _ => {}
         }
-    }
-
-    fn supports(&self, bit_rate: Bitrate) -> bool {
-        self.core.settings.bit_rates.contains(&bit_rate)
     }
 
     fn answer(&mut self, data: [u8; MOST_DATA]) {
@@ -223,23 +269,16 @@ impl Context<'_> {
         self.answer([command::IDENTIFY_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
     }
 
-    fn store_lss(&mut self) -> Result<(), crate::StorageError> {
+    /// Stores node-ID and bit rate, the one that was configured last or is stored already.
+    fn store_lss(&mut self) -> Result<(), StorageError> {
         let node_id = self.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
         let rate = self.core.lss.bit_rate.map_or(0, Bitrate::kbit_per_s).to_le_bytes();
         let [low, high] = rate;
         self.storage.begin(Record::Lss)?;
         // The complement tells a torn record from a right one.
         self.storage.write(Record::Lss, &[node_id, !node_id, low, high, !low, !high])?;
-        self.storage.commit(Record::Lss)
-    }
-
-    /// The node-ID that LSS has stored: `None` where nothing right is stored, and `Some(None)` for "unconfigured".
-    pub(crate) fn stored_node_id(&mut self) -> Option<Option<NodeId>> {
-        let mut record = [0; 6];
-        let length = Reader::new(self.storage, Record::Lss).read(&mut record).ok()?;
-        let [node_id, not_node_id, low, high, not_low, not_high] = record;
-        let is_right =
-            length == record.len() && node_id == !not_node_id && low == !not_low && high == !not_high;
-        is_right.then(|| NodeId::new(node_id).ok())
+        self.storage.commit(Record::Lss)?;
+        self.clear(Error::LOST_PARAMETERS, SOURCE);
+        Ok(())
     }
 }

@@ -1,22 +1,38 @@
 //! NMT slave: states, commands, initialisation and boot-up (CiA 301 v4.2, 7.2.8 and 7.3.2).
 
+use crate::access::is_communication;
 use crate::context::Context;
-use crate::dictionary::Entry;
 use crate::emcy::Emcy;
 use crate::guarding::Guarding;
-use crate::heartbeat::Producer;
-use crate::{Frame, Reset};
+use crate::heartbeat::{HeartbeatConsumer, Producer};
+use crate::lss::Commissioning;
+use crate::{Error, Frame, Reset};
 use edskit_types::{CanId, Index, NmtCommand, NmtState, NodeId};
 
-/// 1F80h bit 2: the device does not go to operational by itself (CiA 302-2).
+/// What the device does when it has booted up (CiA 302-2).
+const STARTUP: Index = Index(0x1F80);
+/// 1F80h bit 0: the device is the NMT master. Where it is 0, no other bit counts, with the exception of whole values.
+const IS_MASTER: u32 = 1;
+/// 1F80h bit 2: the NMT master does not go to operational by itself.
 const NO_SELF_START: u32 = 1 << 2;
+/// 1F80h as a whole: a slave that goes to operational by itself.
+const SLAVE_STARTS: u32 = 8;
 
 impl Context<'_> {
     /// The first initialisation.
     pub(crate) fn power_on(&mut self) {
         self.core.has_started = true;
-        self.core.pending_node_id = self.stored_node_id().unwrap_or(self.core.settings.node_id);
+        let (Commissioning { node_id, bit_rate }, is_lost) =
+            Commissioning::read(self.storage, &self.core.settings);
+        self.core.pending_node_id = node_id;
+        self.core.lss.bit_rate = bit_rate;
+        if let Some(bit_rate) = bit_rate {
+            self.app.activate_bit_rate(bit_rate, 0);
+        }
         self.initialise(Reset::Node);
+        if is_lost {
+            self.raise(Error::LOST_PARAMETERS, crate::lss::SOURCE, [0; 5]);
+        }
     }
 
     /// A frame with the identifier 000h.
@@ -43,7 +59,9 @@ impl Context<'_> {
         }
         self.core.state = to;
         if to == NmtState::Stopped {
-            self.stop_transfers();
+            self.end_transfers();
+            // No message is taken any more that could be right.
+            self.sync_length_found(false, 0);
         }
         if from == NmtState::Stopped {
             self.core.sync.restart(self.now);
@@ -64,12 +82,19 @@ impl Context<'_> {
         if from != NmtState::Initialising {
             self.app.state_changed(&mut self.objects, from, NmtState::Initialising);
         }
+        self.end_transfers();
+        self.consumers.fill(HeartbeatConsumer::NEW);
         self.core.queue.clear();
         self.core.node_id = self.core.pending_node_id;
-        let node_id = self.core.node_id;
-        let is_reset = move |entry: &Entry| reset == Reset::Node || (0x1000..0x2000).contains(&entry.index.0);
-        self.objects.restore(node_id, is_reset);
+        if reset == Reset::Node {
+            self.core.node_id_of_reset = self.core.node_id;
+        }
+        let is_reset = move |index: Index| reset == Reset::Node || is_communication(index);
+        self.objects.restore(self.core.node_id, is_reset);
         self.core.emcy = Emcy::new();
+        // Errors are those of this operation, whatever a file or a record says.
+        self.objects.set_value(Index::ERROR_REGISTER, 0, 0_u8);
+        self.objects.set_value(Index::PREDEFINED_ERROR_FIELD, 0, 0_u8);
         self.core.lss.restart();
         self.load_parameters(is_reset);
         self.app.reset(&mut self.objects, reset);
@@ -108,9 +133,12 @@ impl Context<'_> {
         self.configure_pdos();
     }
 
+    /// Whether the node goes to operational by itself: as 1F80h says, where there is one.
     fn starts_by_itself(&self) -> bool {
-        let startup = self.objects.value::<u32>(Index(0x1F80), 0);
-        startup.map_or(self.core.settings.starts_by_itself, |startup| startup & NO_SELF_START == 0)
+        match self.objects.value::<u32>(STARTUP, 0) {
+            Some(startup) => startup == SLAVE_STARTS || startup & (IS_MASTER | NO_SELF_START) == IS_MASTER,
+            None => self.core.settings.starts_by_itself,
+        }
     }
 }
 

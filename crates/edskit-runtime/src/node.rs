@@ -9,11 +9,12 @@ use crate::lss::Lss;
 use crate::queue::Queue;
 use crate::sync::Sync;
 use crate::{
-    Application, Error, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
+    Application, Entry, Error, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
 };
-use edskit_types::{Bitrate, NmtState, NodeId};
+use edskit_types::{AbortCode, BitRates, NmtState, NodeId};
 
-/// What a node is told besides its dictionary.
+/// What a node is told besides its dictionary. A generated dictionary has the constant `SETTINGS`, which says what
+/// `[DeviceInfo]` of its EDS does.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
     /// The node-ID at power-on, where LSS has stored none; `None` waits for LSS.
@@ -21,23 +22,31 @@ pub struct Settings {
     /// Whether the node goes to operational by itself, where the dictionary has no 1F80h that says so.
     pub starts_by_itself: bool,
     /// The bit rates that LSS may configure.
-    pub bit_rates: &'static [Bitrate],
+    pub bit_rates: BitRates,
     /// Whether the node is an LSS slave (CiA 305).
     pub has_lss: bool,
     /// Whether its SDO servers know block transfer, which is optional in CiA 301.
     pub has_block_transfer: bool,
+    /// Mapped values have a multiple of so many bits (`Granularity` of the EDS); 0 and 1 allow any length.
+    pub granularity: u8,
+}
+
+impl Settings {
+    /// Node-ID 1, no self-start, every bit rate, LSS and block transfer, mapping by the bit.
+    pub const DEFAULT: Self = Self {
+        node_id: Some(NodeId::MIN),
+        starts_by_itself: false,
+        bit_rates: BitRates::ALL,
+        has_lss: true,
+        has_block_transfer: true,
+        granularity: 1,
+    };
 }
 
 impl Default for Settings {
-    /// Node-ID 1, no self-start, every bit rate, LSS and block transfer.
+    /// [`Settings::DEFAULT`].
     fn default() -> Self {
-        Self {
-            node_id: Some(NodeId::MIN),
-            starts_by_itself: false,
-            bit_rates: Bitrate::ALL,
-            has_lss: true,
-            has_block_transfer: true,
-        }
+        Self::DEFAULT
     }
 }
 
@@ -60,10 +69,14 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             settings,
             node_id: None,
             pending_node_id: None,
+            node_id_of_reset: None,
             state: NmtState::Initialising,
             has_started: false,
             is_held: false,
             queue: Queue::new(),
+            has_overrun: false,
+            next_tpdo: 0,
+            refused_values: 0,
             emcy: Emcy::new(),
             producer: Producer::OFF,
             guarding: Guarding::new(),
@@ -143,6 +156,9 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
 
     /// An error of the device has occurred: it is told by an EMCY message, unless it is present already. `source` tells
     /// errors of one kind apart.
+    ///
+    /// There is room for 32 errors of the device at once, whatever the services of the node find besides. A further one is
+    /// told each time that it is raised, and is not in the error register afterwards.
     pub fn raise(
         &mut self,
         now: Instant,
@@ -159,14 +175,41 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
         self.context(now, app).clear(error, source);
     }
 
-    /// An event of the TPDO with this number from 1 has happened: it is sent as its transmission type says.
+    /// An event of the TPDO with this number from 1 has happened: it is sent as its transmission type says. Types that no
+    /// event sends have none.
     pub fn trigger_tpdo(&mut self, now: Instant, number: u16) {
         self.context(now, &mut NoApplication).tpdo_event(number);
     }
 
-    /// The device has changed a value: an event of each TPDO that carries it.
+    /// The device has changed a value: an event of each TPDO that carries it. What a client or an RPDO writes is an event
+    /// where [`Application::write_is_event`] says so.
     pub fn value_changed(&mut self, now: Instant, position: Position) {
         self.context(now, &mut NoApplication).value_changed(position);
+    }
+
+    /// The device has changed a parameter of 1000h to 1FFFh itself: the service follows it as if a client had written it.
+    /// A value that a client could not write has no effect. Of a mapping, sub-index 00h stands for the whole.
+    pub fn parameter_changed(&mut self, now: Instant, position: Position, app: &mut dyn Application) {
+        let mut context = self.context(now, app);
+        if let Some(entry) = context.objects.table.entry(position)
+            && context.core.has_started
+            && !context.core.is_held
+        {
+            context.parameter_changed(entry);
+        }
+    }
+
+    /// Calls `report` with every entry whose present value is one that a client could not write, and with the abort code
+    /// that it would get. Wherever such a value comes from, it has no effect: the service that it belongs to does not
+    /// exist, or works as if the object did not. Without a node-ID nothing is reported.
+    pub fn refused(&mut self, app: &mut dyn Application, report: &mut dyn FnMut(&Entry, AbortCode)) {
+        self.context(Instant::default(), app).refused(report);
+    }
+
+    /// How many values of RPDOs were refused since the node was made, by their limits or by the device; it stops at the
+    /// highest number. [`Application::rpdo_value_refused`] is told each.
+    pub fn refused_rpdo_values(&self) -> u32 {
+        self.core.refused_values
     }
 
     /// Why the TPDO with this number from 1 is not being sent at the moment.

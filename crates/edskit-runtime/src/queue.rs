@@ -11,7 +11,7 @@ const CAPACITY: usize = 16;
 #[derive(Debug)]
 pub(crate) struct Queue {
     frames: Ring<Frame, CAPACITY>,
-    /// Whether a frame was lost since [`Queue::take_overflow`] was asked last.
+    /// Whether something was lost since [`Queue::take_overflow`] was asked last.
     has_overflown: bool,
 }
 
@@ -38,6 +38,11 @@ impl Queue {
     pub(crate) fn clear(&mut self) {
         self.frames.clear();
         self.has_overflown = false;
+    }
+
+    /// Something could not be sent in its time, and will not be or is late.
+    pub(crate) fn note_loss(&mut self) {
+        self.has_overflown = true;
     }
 
     /// Whether a frame was lost, once.

@@ -27,6 +27,19 @@ impl<T: Copy, const N: usize> Ring<T, N> {
         }
     }
 
+    /// Appends an item, in the place of the newest one where there is no room.
+    pub(crate) fn push_over(&mut self, item: T) {
+        self.count = self.count.min(N.saturating_sub(1));
+        self.push(item);
+    }
+
+    /// Forgets all but the newest item.
+    pub(crate) fn keep_newest(&mut self) {
+        let older = self.count.saturating_sub(1);
+        self.first = (self.first + older) % N;
+        self.count -= older;
+    }
+
     /// Takes the item that has waited longest.
     pub(crate) fn pop(&mut self) -> Option<T> {
         let item = *self.places.get(self.first).filter(|_| self.count > 0)?;
@@ -62,6 +75,17 @@ mod tests {
             // `None` takes an item out.
             for step in steps {
                 match step {
+                    Some(item @ 0..=9) => {
+                        ring.keep_newest();
+                        model.drain(..model.len().saturating_sub(1));
+                        ring.push_over(item);
+                        model.push_back(item);
+                    }
+                    Some(item @ 10..=99) => {
+                        ring.push_over(item);
+                        model.truncate(2);
+                        model.push_back(item);
+                    }
                     Some(item) => {
                         let fits = model.len() < 3;
                         prop_assert_eq!(ring.push(item), fits);

@@ -1,5 +1,6 @@
 //! Storing parameters over power-off: 1010h, 1011h, and what LSS configures.
 
+use crate::access::is_communication;
 use crate::context::Context;
 use crate::crc::Crc;
 use crate::dictionary::{Entry, Flags, Position, StorageGroup, Table};
@@ -112,41 +113,39 @@ const SAVE: [u8; 4] = *b"save";
 const LOAD: [u8; 4] = *b"load";
 /// Sub-index 01h: all groups.
 const ALL_GROUPS: u8 = 1;
+/// The highest group that there can be.
+const LAST_GROUP: u8 = 0x7F;
 
 /// A record begins with this, then the fingerprint of the dictionary and the length of what follows, and ends with a
 /// checksum over all of that.
-const MAGIC: [u8; 4] = *b"EDS1";
+const MAGIC: [u8; 4] = *b"EDS2";
 const HEADER: usize = 12;
 /// Before each value: its index, sub-index and length.
 const HEAD: usize = 5;
+/// In the length: the value is an offset to the node-ID, since it was the default, which follows the node-ID. So a value
+/// that is stored has less than 32 KiB.
+const RELATIVE: u16 = 1 << 15;
 /// How much is read at once.
 const CHUNK: usize = 16;
 
 impl Context<'_> {
-    /// 1010h is written: stores a group, or all.
-    pub(crate) fn store_parameters(&mut self, sub_index: SubIndex, data: &[u8]) -> Result<(), AbortCode> {
-        if data != SAVE {
-            return Err(AbortCode::CANNOT_TRANSFER);
-        }
-        self.for_groups(sub_index, true)
+    /// What 1010h and 1011h take: their signature.
+    pub(crate) fn check_command(&self, index: Index, data: &[u8]) -> Result<(), AbortCode> {
+        let signature = if index == Index::STORE_PARAMETERS { SAVE } else { LOAD };
+        if data == signature { Ok(()) } else { Err(AbortCode::CANNOT_TRANSFER) }
     }
 
-    /// 1011h is written: forgets what is stored of a group, or all. The values change with the next reset.
-    pub(crate) fn restore_parameters(&mut self, sub_index: SubIndex, data: &[u8]) -> Result<(), AbortCode> {
-        if data != LOAD {
-            return Err(AbortCode::CANNOT_TRANSFER);
-        }
-        self.for_groups(sub_index, false)
-    }
-
-    /// Saves the groups that a sub-index of 1010h or 1011h stands for, or forgets what is stored of them.
-    fn for_groups(&mut self, sub_index: SubIndex, saves: bool) -> Result<(), AbortCode> {
+    /// 1010h is written: saves the groups that the sub-index stands for. Or 1011h is: forgets what is stored of them; the
+    /// values change with the next reset. Either way nothing of them is lost any more.
+    pub(crate) fn do_command(&mut self, index: Index, sub_index: SubIndex) -> Result<(), AbortCode> {
         for group in groups(self.objects.table) {
             if ![ALL_GROUPS, group.0].contains(&sub_index.0) {
                 continue;
             }
+            let saves = index == Index::STORE_PARAMETERS;
             let done = if saves { self.save_group(group) } else { self.storage.erase(Record::Values(group)) };
             done.map_err(|StorageError| AbortCode::HARDWARE_ERROR)?;
+            self.clear(Error::LOST_PARAMETERS, group.0.into());
         }
         Ok(())
     }
@@ -154,6 +153,9 @@ impl Context<'_> {
     fn save_group(&mut self, group: StorageGroup) -> Result<(), StorageError> {
         let record = Record::Values(group);
         let table = self.objects.table;
+        // Values from 2000h on that follow the node-ID have that of the last reset of the node.
+        let (own, own_of_reset) = (self.core.node_id, self.core.node_id_of_reset);
+        let node_id_in = |index| if is_communication(index) { own } else { own_of_reset };
         let length = |(position, _)| HEAD + self.objects.bytes(position).len();
         let length = members(table, group).map(length).sum::<usize>() as u32;
         let mut writer = Writer { storage: self.storage, record, crc: Crc::new() };
@@ -162,9 +164,14 @@ impl Context<'_> {
             writer.write(&part)?;
         }
         for (position, entry) in members(table, group) {
-            let bytes = self.objects.bytes(position);
+            let own = self.objects.node_relative(position, entry, node_id_in(entry.index));
+            let bytes = own.unwrap_or(self.objects.bytes(position));
+            let size = bytes.len() as u16;
+            if size & RELATIVE != 0 {
+                return Err(StorageError);
+            }
             let [index_low, index_high] = entry.index.0.to_le_bytes();
-            let [size_low, size_high] = (bytes.len() as u16).to_le_bytes();
+            let [size_low, size_high] = (size | if own.is_some() { RELATIVE } else { 0 }).to_le_bytes();
             writer.write(&[index_low, index_high, entry.sub_index.0, size_low, size_high])?;
             writer.write(bytes)?;
         }
@@ -173,22 +180,27 @@ impl Context<'_> {
         writer.storage.commit(record)
     }
 
-    /// Loads the stored values of the groups that `is_chosen` chooses entries of, over the defaults. What is torn or
-    /// belongs to another dictionary is left, and that is an error of the device.
-    pub(crate) fn load_parameters(&mut self, is_chosen: impl Fn(&Entry) -> bool) {
-        for group in groups(self.objects.table) {
-            match self.check_record(Record::Values(group)) {
-                Ok(Some(length)) => self.load_group(group, length, &is_chosen),
-                Ok(None) => {}
-                Err(StorageError) => {
-                    self.raise(Error::LOST_PARAMETERS, u16::from(group.0), [group.0, 0, 0, 0, 0])
+    /// Loads the stored values of the entries that `is_chosen` chooses over the defaults. What is torn or has no place in
+    /// this dictionary is left.
+    pub(crate) fn load_parameters(&mut self, is_chosen: impl Fn(Index) -> bool) {
+        // Values that an update has moved to another group come first: what is stored in their own group is newer.
+        for wants_moved in [true, false] {
+            for group in StorageGroup::COMMUNICATION.0..=LAST_GROUP {
+                let group = StorageGroup(group);
+                let loaded = match self.check_record(Record::Values(group), wants_moved) {
+                    Ok(Some(length)) => self.load_group(group, length, wants_moved, &is_chosen),
+                    Ok(None) => Ok(()),
+                    Err(StorageError) => Err([0; 4]),
+                };
+                if let Err([a, b, c, d]) = loaded {
+                    self.raise(Error::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
                 }
             }
         }
     }
 
-    /// The length of the values in a record; `None` where there is no record.
-    fn check_record(&mut self, record: Record) -> Result<Option<u32>, StorageError> {
+    /// The length of the values in a record; `None` where there is no record, or only one of another dictionary is wanted.
+    fn check_record(&mut self, record: Record, wants_other: bool) -> Result<Option<u32>, StorageError> {
         let mut reader = Reader::new(self.storage, record);
         let mut crc = Crc::new();
         let mut header = [0; HEADER];
@@ -198,9 +210,11 @@ impl Context<'_> {
             _ => return Err(StorageError),
         }
         let [m0, m1, m2, m3, f0, f1, f2, f3, l0, l1, l2, l3] = header;
-        let fingerprint = u32::from_le_bytes([f0, f1, f2, f3]);
-        if [m0, m1, m2, m3] != MAGIC || fingerprint != self.objects.table.fingerprint {
+        if [m0, m1, m2, m3] != MAGIC {
             return Err(StorageError);
+        }
+        if wants_other && u32::from_le_bytes([f0, f1, f2, f3]) == self.objects.table.fingerprint {
+            return Ok(None);
         }
         let length = u32::from_le_bytes([l0, l1, l2, l3]);
         let mut left = length;
@@ -218,33 +232,90 @@ impl Context<'_> {
         if is_right { Ok(Some(length)) } else { Err(StorageError) }
     }
 
-    /// Takes over the values of a record that has been checked.
-    fn load_group(&mut self, group: StorageGroup, length: u32, is_chosen: &impl Fn(&Entry) -> bool) {
+    /// Takes over the values of a record that has been checked, one by one, since an update may have changed the
+    /// dictionary. The application is told each that has no place any more.
+    ///
+    /// # Errors
+    /// The place of the first value that was lost: its entry is there and is stored, but cannot have it.
+    fn load_group(
+        &mut self,
+        group: StorageGroup,
+        length: u32,
+        wants_moved: bool,
+        is_chosen: &impl Fn(Index) -> bool,
+    ) -> Result<(), [u8; 4]> {
         let mut offset = HEADER as u32;
-        let end = offset + length;
+        let end = offset.saturating_add(length);
+        let mut loaded = Ok(());
         while offset < end {
             let mut reader = Reader { storage: self.storage, record: Record::Values(group), offset };
             let mut head = [0; HEAD];
             if reader.read(&mut head) != Ok(HEAD) {
-                return;
+                return Err([0; 4]);
             }
             let [index_low, index_high, sub_index, size_low, size_high] = head;
-            let index = Index(u16::from_le_bytes([index_low, index_high]));
+            let (index, sub_index) =
+                (Index(u16::from_le_bytes([index_low, index_high])), SubIndex(sub_index));
             let size = u16::from_le_bytes([size_low, size_high]);
-            let position = self.objects.table.find(index, SubIndex(sub_index)).ok();
-            let entry = position.and_then(|position| Some((position, self.objects.table.entry(position)?)));
-            if let Some((position, entry)) = entry.filter(|(_, entry)| is_chosen(entry)) {
-                let start = usize::from(entry.offset) + if entry.has_length() { 2 } else { 0 };
-                let fits = size == entry.size || (entry.has_length() && size < entry.size);
-                let place = self.objects.values.get_mut(start..start + usize::from(size)).filter(|_| fits);
-                if let Some(place) = place {
-                    let _ = reader.read(place);
-                    self.objects.set_length(position, size);
-                }
+            let start = reader.offset;
+            offset = start + u32::from(size & !RELATIVE);
+            if !is_chosen(index) {
+                continue;
             }
-            offset += HEAD as u32 + u32::from(size);
+            let found = self.objects.table.find(index, sub_index).ok();
+            let entry = found.and_then(|position| Some((position, self.objects.table.entry(position)?)));
+            let stored = entry.filter(|(_, entry)| is_stored(entry));
+            let has_moved = stored.is_some_and(|(_, entry)| entry.flags.group() != Some(group));
+            if has_moved != wants_moved {
+                continue;
+            }
+            let is_taken = match stored {
+                Some((position, entry)) => self.load_value(group, start, position, entry, size),
+                None => false,
+            };
+            if !is_taken {
+                self.app.stored_value_dropped(&mut self.objects, index, sub_index);
+            }
+            if !is_taken && stored.is_some() && loaded.is_ok() {
+                loaded = Err([index_low, index_high, sub_index.0, 0]);
+            }
         }
+        loaded
     }
+
+    /// Takes over a stored value; false where it does not fit, or is one that a client could not write.
+    fn load_value(
+        &mut self,
+        group: StorageGroup,
+        offset: u32,
+        position: Position,
+        entry: &Entry,
+        size: u16,
+    ) -> bool {
+        let (is_relative, size) = (size & RELATIVE != 0, size & !RELATIVE);
+        if size != entry.size && (!entry.has_length() || size > entry.size) {
+            return false;
+        }
+        self.objects.set_length(position, size);
+        let mut reader = Reader { storage: self.storage, record: Record::Values(group), offset };
+        let mut is_right = reader.read(self.objects.bytes_of(entry)) == Ok(size.into());
+        if is_relative {
+            self.objects.add_node_id(position, self.core.node_id);
+        }
+        // What follows the node-ID is not known without one.
+        let is_known = self.core.node_id.is_some();
+        is_right = is_right && (!is_known || self.check_present(position, entry).is_ok());
+        if !is_right {
+            self.objects.restore_entry(position, entry, self.core.node_id);
+        }
+        is_right
+    }
+}
+
+/// Whether the value of an entry is stored. The errors of an operation are none of the next one.
+fn is_stored(entry: &Entry) -> bool {
+    let is_of_errors = matches!(entry.index, Index::ERROR_REGISTER | Index::PREDEFINED_ERROR_FIELD);
+    entry.flags.has(Flags::VARIABLE) && entry.flags.group().is_some() && !is_of_errors
 }
 
 /// The groups that have members, in ascending order.
@@ -257,8 +328,8 @@ fn groups<'a>(table: &Table<'a>) -> impl Iterator<Item = StorageGroup> + use<'a>
 /// The lowest group above `last` that has a member.
 #[inline(never)]
 fn next_group(entries: &[Entry], last: StorageGroup) -> Option<StorageGroup> {
-    let variable = entries.iter().filter(|entry| entry.flags.has(Flags::VARIABLE));
-    variable.filter_map(|entry| entry.flags.group()).filter(|group| *group > last).min()
+    let stored = entries.iter().filter(|entry| is_stored(entry));
+    stored.filter_map(|entry| entry.flags.group()).filter(|group| *group > last).min()
 }
 
 /// The entries of a group with their positions.
@@ -266,8 +337,7 @@ fn members<'a>(
     table: &Table<'a>,
     group: StorageGroup,
 ) -> impl Iterator<Item = (Position, &'a Entry)> + Clone + use<'a> {
-    let is_member = move |flags: Flags| flags.has(Flags::VARIABLE) && flags.group() == Some(group);
-    table.all().filter(move |(_, entry)| is_member(entry.flags))
+    table.all().filter(move |(_, entry)| is_stored(entry) && entry.flags.group() == Some(group))
 }
 
 struct Writer<'a> {

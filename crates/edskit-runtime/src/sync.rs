@@ -13,17 +13,19 @@ const OVERFLOW: Index = Index(0x1019);
 pub(crate) struct Sync {
     /// The identifier; `None` for a device without 1005h.
     can_id: Option<CanId>,
-    /// Until when PDOs of the present period are in time.
-    window: Timer,
+    /// When the present period began; `None` before the first message.
+    began: Option<Instant>,
     /// Runs while the device produces the message.
     producer: Timer,
     /// The counter of the next message that is produced.
     next_counter: u8,
+    /// Whether the last message had a wrong length, which is an error.
+    has_wrong_length: bool,
 }
 
 impl Sync {
     pub(crate) const fn new() -> Self {
-        Self { can_id: None, window: Timer::OFF, producer: Timer::OFF, next_counter: 1 }
+        Self { can_id: None, began: None, producer: Timer::OFF, next_counter: 1, has_wrong_length: false }
     }
 
     pub(crate) fn is(&self, can_id: CanId) -> bool {
@@ -41,69 +43,95 @@ impl Sync {
             self.producer = Timer::after(now, Microseconds(1));
         }
     }
+}
 
-    /// Whether a window is set and has passed.
-    pub(crate) fn window_has_passed(&self, now: Instant) -> bool {
-        self.window.is_due(now)
-    }
+/// What 1019h can be set to.
+pub(crate) fn check_sync_overflow(value: u8) -> Result<(), AbortCode> {
+    if matches!(value, 0 | 2..=240) { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
 }
 
 impl Context<'_> {
     pub(crate) fn configure_sync(&mut self) {
         self.core.sync = Sync::new();
-        self.core.sync.can_id = self.sync_cob_id().map(CobId::can_id);
-        self.start_sync_producer();
+        self.sync_changed();
     }
 
+    /// What 1005h says, where that can be used.
     fn sync_cob_id(&self) -> Option<CobId> {
-        self.objects.value(Index::SYNC_COB_ID, 0).map(CobId)
+        self.objects.value(Index::SYNC_COB_ID, 0).map(CobId).filter(|cob_id| self.check_sync(*cob_id).is_ok())
     }
 
     fn sync_period(&self) -> Microseconds {
         Microseconds(self.objects.value::<u32>(PERIOD, 0).unwrap_or_default().into())
     }
 
-    fn is_sync_producer(&self) -> bool {
-        self.sync_cob_id().is_some_and(CobId::bit30)
+    /// The overflow value of the counter, where 1019h has one that can be used; 0 for no counter.
+    fn sync_overflow(&self) -> u8 {
+        let overflow: Option<u8> = self.objects.value(OVERFLOW, 0);
+        overflow.filter(|value| check_sync_overflow(*value).is_ok()).unwrap_or(0)
     }
 
-    /// The first message comes after one period.
-    fn start_sync_producer(&mut self) {
-        let period = if self.is_sync_producer() { self.sync_period() } else { Microseconds(0) };
-        self.core.sync.producer = Timer::after(self.now, period);
-        self.core.sync.next_counter = 1;
+    /// Whether a window is set (1007h, as it is now) and has passed since the last message.
+    pub(crate) fn window_has_passed(&self) -> bool {
+        let Some(began) = self.core.sync.began.filter(|began| *began < self.now) else { return false };
+        let window: u32 = self.objects.value(WINDOW, 0).unwrap_or_default();
+        Timer::after(began, Microseconds(window.into())).is_due(self.now)
+    }
+
+    /// What 1005h can be set to. A device without 1006h cannot produce the message.
+    pub(crate) fn check_sync(&self, cob_id: CobId) -> Result<(), AbortCode> {
+        if cob_id.bit30() && self.objects.value::<u32>(PERIOD, 0).is_none() {
+            return Err(AbortCode::INVALID_VALUE);
+        }
+        // Bit 31 has no meaning here, so an identifier is checked as that of a valid message.
+        self.check_cob_id(CobId(cob_id.0 & !CobId::BIT_31))
     }
 
     /// 1005h is about to be written. While the device produces the message, only bit 30 may change.
-    pub(crate) fn check_sync_cob_id(&self, old: CobId, new: CobId) -> Result<(), AbortCode> {
-        // Bit 31 has no meaning here, so an identifier is checked as that of a valid message.
-        self.check_cob_id(CobId(new.0 & !CobId::BIT_31))?;
-        if old.bit30() && new.bit30() && old.can_id() != new.can_id() {
-            return Err(AbortCode::INVALID_VALUE);
-        }
-        if new.bit30() && self.objects.value::<u32>(PERIOD, 0).is_none() {
-            return Err(AbortCode::INVALID_VALUE);
-        }
-        Ok(())
-    }
-
-    /// 1019h is about to be written.
-    pub(crate) fn check_sync_overflow(&self, value: u8) -> Result<(), AbortCode> {
-        match value {
-            _ if self.sync_period().0 > 0 => Err(AbortCode::DEVICE_STATE),
-            0 | 2..=240 => Ok(()),
-            _ => Err(AbortCode::INVALID_VALUE),
+    pub(crate) fn check_sync_change(&self, new: CobId) -> Result<(), AbortCode> {
+        match self.sync_cob_id() {
+            Some(old) if old.bit30() && new.bit30() && old.can_id() != new.can_id() => {
+                Err(AbortCode::INVALID_VALUE)
+            }
+            _ => Ok(()),
         }
     }
 
-    /// 1005h or 1006h has been written.
-    pub(crate) fn sync_written(&mut self) {
-        self.core.sync.can_id = self.sync_cob_id().map(CobId::can_id);
-        self.start_sync_producer();
+    /// 1019h is about to be written: only while there is no period.
+    pub(crate) fn check_overflow_change(&self) -> Result<(), AbortCode> {
+        if self.sync_period().0 > 0 { Err(AbortCode::DEVICE_STATE) } else { Ok(()) }
     }
 
+    /// What follows from 1005h, 1006h and 1019h: the producer begins anew, its first message after one period, and the
+    /// error of a message that was expected otherwise is none any more.
+    pub(crate) fn sync_changed(&mut self) {
+        let cob_id = self.sync_cob_id();
+        let can_id = cob_id.map(CobId::can_id);
+        let is_producer = cob_id.is_some_and(CobId::bit30);
+        let period = if is_producer { self.sync_period() } else { Microseconds(0) };
+        let sync = &mut self.core.sync;
+        if sync.can_id != can_id {
+            sync.began = None;
+        }
+        sync.can_id = can_id;
+        sync.producer = Timer::after(self.now, period);
+        sync.next_counter = 1;
+        self.sync_length_found(false, 0);
+    }
+
+    /// Whether the last message had a wrong length.
+    pub(crate) fn sync_length_found(&mut self, is_wrong: bool, length: u8) {
+        let was_wrong = core::mem::replace(&mut self.core.sync.has_wrong_length, is_wrong);
+        self.found(Error::SYNC_LENGTH, was_wrong, is_wrong, [length, 0, 0, 0, 0]);
+    }
+
+    /// Sends the message when it is due, or as soon after that as the queue has room, which is told.
     pub(crate) fn poll_sync(&mut self) {
         if !self.core.sync.producer.is_due(self.now) {
+            return;
+        }
+        if self.is_communicating() && self.core.queue.room() == 0 {
+            self.core.queue.note_loss();
             return;
         }
         let period = self.sync_period();
@@ -112,7 +140,7 @@ impl Context<'_> {
         if !self.is_communicating() {
             return;
         }
-        let overflow: u8 = self.objects.value(OVERFLOW, 0).unwrap_or_default();
+        let overflow = self.sync_overflow();
         let counter = (overflow > 0).then_some(self.core.sync.next_counter);
         if let Some(counter) = counter {
             self.core.sync.next_counter = if counter >= overflow { 1 } else { counter + 1 };
@@ -121,29 +149,27 @@ impl Context<'_> {
         self.synchronise(counter);
     }
 
-    /// A frame with the identifier of 1005h.
+    /// A frame with the identifier of 1005h. A device whose period is 0 makes none itself, so it takes those of others
+    /// although it may be set to produce them (bit 30).
     pub(crate) fn sync_received(&mut self, frame: &Frame) {
-        if !self.is_communicating() || self.is_sync_producer() {
+        if !self.is_communicating() || self.core.sync.producer.is_running() {
             return;
         }
-        let has_counter = self.objects.value::<u8>(OVERFLOW, 0).unwrap_or_default() > 0;
-        match (frame.data(), has_counter) {
-            ([], false) => {
-                self.clear(Error::SYNC_LENGTH, 0);
-                self.synchronise(None);
+        let counter = match (frame.data(), self.sync_overflow() > 0) {
+            ([], false) => None,
+            ([counter], true) => Some(*counter),
+            (data, _) => {
+                self.sync_length_found(true, data.len() as u8);
+                return;
             }
-            ([counter], true) => {
-                self.clear(Error::SYNC_LENGTH, 0);
-                self.synchronise(Some(*counter));
-            }
-            (data, _) => self.raise(Error::SYNC_LENGTH, 0, [data.len() as u8, 0, 0, 0, 0]),
-        }
+        };
+        self.sync_length_found(false, 0);
+        self.synchronise(counter);
     }
 
     /// A period begins: what was received in the last one counts, and synchronous PDOs are sent.
     fn synchronise(&mut self, counter: Option<u8>) {
-        let window: u32 = self.objects.value(WINDOW, 0).unwrap_or_default();
-        self.core.sync.window = Timer::after(self.now, Microseconds(window.into()));
+        self.core.sync.began = Some(self.now);
         self.apply_synchronous_rpdos();
         self.app.sync_received(&mut self.objects, counter);
         self.send_synchronous_tpdos(counter);

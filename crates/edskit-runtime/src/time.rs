@@ -65,6 +65,11 @@ pub(crate) struct Timer(Instant);
 impl Timer {
     pub(crate) const OFF: Self = Self(Instant::NEVER);
 
+    /// Due from a time on.
+    pub(crate) const fn at(time: Instant) -> Self {
+        Self(time)
+    }
+
     /// Due after `duration`; off where that is 0.
     #[inline(never)]
     pub(crate) fn after(now: Instant, duration: Microseconds) -> Self {

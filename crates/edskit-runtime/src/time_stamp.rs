@@ -9,8 +9,14 @@ const TIME_COB_ID: Index = Index(0x1012);
 impl Context<'_> {
     /// Whether an identifier is that of the TIME message, and the device takes it (bit 31).
     pub(crate) fn is_time(&self, can_id: CanId) -> bool {
-        let cob_id = self.objects.value(TIME_COB_ID, 0).map(CobId);
-        cob_id.is_some_and(|cob_id| cob_id.0 & CobId::BIT_31 != 0 && cob_id.can_id() == can_id)
+        self.time_can_id() == Some(can_id)
+    }
+
+    /// The identifier of the message; `None` where the device does not take it, or 1012h cannot be used.
+    fn time_can_id(&self) -> Option<CanId> {
+        let cob_id = self.objects.value(TIME_COB_ID, 0).map(CobId)?;
+        let is_taken = cob_id.0 & CobId::BIT_31 != 0 && self.check_time(cob_id).is_ok();
+        is_taken.then(|| cob_id.can_id())
     }
 
     pub(crate) fn time_received(&mut self, frame: &Frame) {
@@ -22,14 +28,19 @@ impl Context<'_> {
         }
     }
 
-    /// 1012h is about to be written: the node takes the message, but does not produce it. The identifier cannot change
-    /// while the node takes it.
-    pub(crate) fn check_time_cob_id(&self, old: CobId, new: CobId) -> Result<(), AbortCode> {
-        self.check_cob_id(CobId(new.0 & !CobId::BIT_31))?;
-        let is_consumer = |cob_id: CobId| cob_id.0 & CobId::BIT_31 != 0;
-        if new.bit30() || (is_consumer(old) && is_consumer(new) && old.can_id() != new.can_id()) {
+    /// What 1012h can be set to: the node takes the message, but does not produce it.
+    pub(crate) fn check_time(&self, cob_id: CobId) -> Result<(), AbortCode> {
+        if cob_id.bit30() {
             return Err(AbortCode::INVALID_VALUE);
         }
-        Ok(())
+        self.check_cob_id(CobId(cob_id.0 & !CobId::BIT_31))
+    }
+
+    /// 1012h is about to be written. The identifier cannot change while the node takes the message.
+    pub(crate) fn check_time_change(&self, new: CobId) -> Result<(), AbortCode> {
+        match self.time_can_id() {
+            Some(old) if new.0 & CobId::BIT_31 != 0 && old != new.can_id() => Err(AbortCode::INVALID_VALUE),
+            _ => Ok(()),
+        }
     }
 }

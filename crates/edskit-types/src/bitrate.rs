@@ -86,6 +86,50 @@ impl Bitrate {
     }
 }
 
+/// A set of bit rates: those that a device supports.
+///
+/// ```
+/// use edskit_types::{BitRates, Bitrate};
+///
+/// let bit_rates = BitRates::NONE.and(Bitrate::Kbit125).and(Bitrate::Kbit500);
+/// assert!(bit_rates.has(Bitrate::Kbit500) && !bit_rates.has(Bitrate::Kbit10));
+/// assert!(Bitrate::ALL.iter().all(|bit_rate| BitRates::ALL.has(*bit_rate)));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct BitRates(u8);
+
+impl BitRates {
+    /// No bit rate.
+    pub const NONE: Self = Self(0);
+    /// Every bit rate.
+    pub const ALL: Self = Self(u8::MAX);
+
+    /// The same and another one.
+    #[must_use]
+    pub const fn and(self, bit_rate: Bitrate) -> Self {
+        Self(self.0 | Self::bit(bit_rate))
+    }
+
+    /// Whether a bit rate is among them.
+    #[must_use]
+    pub const fn has(self, bit_rate: Bitrate) -> bool {
+        self.0 & Self::bit(bit_rate) != 0
+    }
+
+    const fn bit(bit_rate: Bitrate) -> u8 {
+        match bit_rate {
+            Bitrate::Kbit10 => 1,
+            Bitrate::Kbit20 => 1 << 1,
+            Bitrate::Kbit50 => 1 << 2,
+            Bitrate::Kbit125 => 1 << 3,
+            Bitrate::Kbit250 => 1 << 4,
+            Bitrate::Kbit500 => 1 << 5,
+            Bitrate::Kbit800 => 1 << 6,
+            Bitrate::Kbit1000 => 1 << 7,
+        }
+    }
+}
+
 impl fmt::Display for Bitrate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} kbit/s", self.kbit_per_s())
@@ -104,6 +148,15 @@ mod tests {
         let numbers: Vec<u16> = known.iter().map(|bitrate| bitrate.kbit_per_s()).collect();
         assert_eq!(numbers, [10, 20, 50, 125, 250, 500, 800, 1000]);
         assert_eq!(Bitrate::from_kbit_per_s(0x1_0000 + 10), None);
+    }
+
+    #[test]
+    fn a_set_has_what_was_put_in() {
+        for one in Bitrate::ALL {
+            let set = BitRates::NONE.and(*one);
+            assert!(Bitrate::ALL.iter().all(|other| set.has(*other) == (one == other)), "{one}");
+        }
+        assert_eq!(Bitrate::ALL.iter().fold(BitRates::NONE, |set, one| set.and(*one)), BitRates::ALL);
     }
 
     #[test]

@@ -13,7 +13,7 @@
 //! | type of a value | [`DataType`], [`DataTypeKind`] |
 //! | when a PDO is sent or applied | [`TransmissionType`], [`Transmission`], [`PdoDirection`] |
 //! | who uses which identifier, and what is in whose way | [`Claim`], [`Party`], [`conflicts`], [`IdentifierRules`], [`CobIdFault`] |
-//! | speed of the bus | [`Bitrate`] |
+//! | speed of the bus | [`Bitrate`], [`BitRates`] |
 //! | state of a device, and what changes it | [`NmtState`], [`NmtCommand`] |
 //! | why an SDO transfer was refused | [`AbortCode`] |
 //! | what an emergency message says | [`EmergencyCode`], [`ErrorRegister`] |
@@ -58,7 +58,7 @@ mod transmission_type;
 
 pub use abort_code::AbortCode;
 pub use access_type::AccessType;
-pub use bitrate::Bitrate;
+pub use bitrate::{BitRates, Bitrate};
 pub use cob_id::{CanId, CobId};
 pub use data_type::{DataType, DataTypeKind};
 pub use emergency_code::{EmergencyCode, ErrorRegister};

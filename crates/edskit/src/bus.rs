@@ -1,7 +1,7 @@
 //! `edskit bus`: a hub for devices and tools.
 
 use crate::cli::BusArguments;
-use crate::live::{Log, PATIENCE, Stop, TraceFile, start_hub};
+use crate::live::{Log, PATIENCE, Stop, TraceFile, addresses, start_hub};
 use crate::{Exit, Streams};
 use edskit_host::{Bus, Hub, Trace};
 use std::io;
@@ -13,7 +13,7 @@ pub(crate) fn run(arguments: &BusArguments, streams: &mut Streams) -> io::Result
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
     let stop = Stop::on_request().map_err(io::Error::other)?;
     let hub = start_hub(arguments.listen).map_err(io::Error::other)?;
-    log.hub(streams, &hub)?;
+    log.reachable(streams, &addresses(&hub))?;
     // Without a trace nobody needs the frames.
     let mut listener = record.map(|record| Trace::new(hub.attach(), record));
     let mut told = Told::default();

@@ -4,10 +4,11 @@ mod live;
 
 pub(crate) use live::{
     BusArguments, MonitorArguments, NmtArguments, NmtTarget, ReadFormat, RunArguments, SdoArguments,
-    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
+    SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments, TransferKind,
 };
 
-use clap::builder::NonEmptyStringValueParser;
+use crate::files;
+use clap::builder::{NonEmptyStringValueParser, OsStringValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use clap_complete::Shell;
 use edskit_lint::Severity;
@@ -64,13 +65,13 @@ pub(crate) enum Command {
 
 #[derive(Args, Debug)]
 pub(crate) struct LintArguments {
-    /// Files, or folders that are searched for .eds, .dcf and .cpj files; `-` reads standard input
+    /// Files, globs, or folders that are searched for .eds, .dcf and .cpj files; `-` reads standard input
     #[arg(value_name = "PATH", default_value = ".", value_hint = ValueHint::AnyPath)]
     pub(crate) paths: Vec<PathBuf>,
     /// How findings are printed
     #[arg(long, value_enum, default_value_t = LintFormat::Human)]
     pub(crate) format: LintFormat,
-    /// Write to this file instead of standard output
+    /// Write to this file instead of standard output, which gets the summary
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) output: Option<PathBuf>,
     /// Hold devices to this profile too, besides those of CiA; may be given several times
@@ -85,16 +86,16 @@ pub(crate) struct LintArguments {
     /// Do not run these rules
     #[arg(long, value_name = "RULE", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
     pub(crate) ignore: Vec<String>,
-    /// Exit with 1 from this severity on
-    #[arg(long, value_name = "SEVERITY", value_enum, default_value_t = FailOn::Warning)]
-    pub(crate) fail_on: FailOn,
+    /// Exit with 1 from this severity on; warning where edskit.toml says nothing
+    #[arg(long, value_name = "SEVERITY", value_enum)]
+    pub(crate) fail_on: Option<FailOn>,
     /// Apply the safe fixes to the files, and report what is left
     #[arg(long)]
     pub(crate) fix: bool,
     /// With --fix or --diff: apply fixes too that are right only if the intent was guessed right
     #[arg(long)]
     pub(crate) unsafe_fixes: bool,
-    /// Change no file; print what --fix would change
+    /// Change no file; print what --fix would change as a patch, and the findings to the error stream
     #[arg(long, conflicts_with = "fix")]
     pub(crate) diff: bool,
     /// Use these settings instead of the edskit.toml that is found upwards from each file
@@ -106,9 +107,13 @@ pub(crate) struct LintArguments {
     /// Show only findings that are not in this baseline
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) baseline: Option<PathBuf>,
-    /// Write all findings into the baseline, so that later runs show only new ones
-    #[arg(long, requires = "baseline", conflicts_with_all = ["fix", "diff"])]
+    /// Write all findings into the baseline, so that later runs show only new ones; what it knows of other files and
+    /// rules stays
+    #[arg(long, conflicts_with_all = ["fix", "diff"])]
     pub(crate) update_baseline: bool,
+    /// Take files that are gone out of the baseline
+    #[arg(long)]
+    pub(crate) prune_baseline: bool,
     /// Print how often each rule fires instead of the findings
     #[arg(long)]
     pub(crate) statistics: bool,
@@ -185,13 +190,14 @@ impl Color {
 
 #[derive(Args, Debug)]
 pub(crate) struct FmtArguments {
-    /// Files, or folders that are searched for .eds, .dcf and .cpj files; `-` formats standard input to standard output
+    /// Files, globs, or folders that are searched for .eds, .dcf and .cpj files; `-` formats standard input to standard
+    /// output
     #[arg(value_name = "PATH", default_value = ".", value_hint = ValueHint::AnyPath)]
     pub(crate) paths: Vec<PathBuf>,
     /// Change no file; exit with 1 and name the files that are not in canonical form
     #[arg(long)]
     pub(crate) check: bool,
-    /// Change no file; print what would change
+    /// Change no file; print what would change as a patch
     #[arg(long)]
     pub(crate) diff: bool,
 }
@@ -199,7 +205,7 @@ pub(crate) struct FmtArguments {
 #[derive(Args, Debug)]
 pub(crate) struct ShowArguments {
     /// The file; `-` reads standard input
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) file: PathBuf,
     /// One object, or one entry, in hexadecimal: `1018` or `1018:1`
     #[arg(value_name = "INDEX[:SUB]", value_parser = parse_place)]
@@ -248,12 +254,54 @@ pub(crate) enum ConfigCommand {
     /// It is the data sheet of the gateway with what the parameters make of it: node-ID, bit rate, the entries that exist,
     /// and what they hold after a start. What there is to say on the parameters is printed to the error stream.
     Dcf(ConfigDcfArguments),
+    /// Make a parameter file of a table, as the PC tool exports it
+    ///
+    /// A row has number, name, value and unit, divided by `;`, tabs or blanks; numbers may have a decimal comma, and columns
+    /// and rows any order. Rows of what is no parameter of the gateway, or nothing here follows from, are kept as comments.
+    Import(ConfigImportArguments),
+    /// Write the parameters of a file as a table
+    Export(ConfigExportArguments),
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigImportArguments {
+    /// The tables, for instance one of the gateway and one of the governor; `-` reads standard input
+    #[arg(value_name = "FILE", required = true, value_hint = ValueHint::FilePath)]
+    pub(crate) files: Vec<PathBuf>,
+    /// Where the parameter file goes; standard output if not given
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) output: Option<PathBuf>,
+    /// Whose parameters these are, where the table does not say so and their names do not
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<ConfigUnit>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ConfigExportArguments {
+    /// The parameter file; `-` reads standard input
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) file: PathBuf,
+    /// Where the table goes; standard output if not given
+    #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub(crate) output: Option<PathBuf>,
+    /// The parameters of one unit alone, without a title
+    #[arg(long, value_enum)]
+    pub(crate) unit: Option<ConfigUnit>,
+}
+
+/// One of the two control units.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum ConfigUnit {
+    /// The CANopen gateway
+    Gateway,
+    /// The digital governor
+    Governor,
 }
 
 #[derive(Args, Debug)]
 pub(crate) struct ConfigCheckArguments {
     /// The file; `-` reads standard input
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) file: PathBuf,
     /// How it is printed
     #[arg(long, value_enum, default_value_t = ConfigFormat::Human)]
@@ -272,7 +320,7 @@ pub(crate) struct ConfigCheckArguments {
 #[derive(Args, Debug)]
 pub(crate) struct ConfigDcfArguments {
     /// The file with the parameters; `-` reads standard input
-    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) file: PathBuf,
     /// Where the DCF goes; standard output if not given
     #[arg(long, short, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -290,7 +338,7 @@ pub(crate) enum ConfigFormat {
 #[derive(Args, Debug)]
 pub(crate) struct GenerateArguments {
     /// An EDS or DCF
-    #[arg(value_hint = ValueHint::FilePath)]
+    #[arg(value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) file: PathBuf,
     /// The folder that the code is written to; it is made where there is none
     #[arg(long, short, value_name = "DIR", value_hint = ValueHint::DirPath)]
@@ -317,7 +365,7 @@ pub(crate) enum LogFormat {
 
 #[derive(Args, Debug)]
 pub(crate) struct ExplainArguments {
-    /// Codes (SYN013), names (duplicate-section) or prefixes of codes (SYN)
+    /// Codes (SYN013, GWC011), names (duplicate-section) or prefixes of codes (SYN)
     #[arg(value_name = "RULE", required_unless_present = "all", conflicts_with = "all")]
     pub(crate) rules: Vec<String>,
     /// Every rule
@@ -338,6 +386,11 @@ pub(crate) enum ExplainFormat {
     CrossReference,
     /// JSON
     Json,
+}
+
+/// Reads the path of one file, which may be a glob.
+fn one_file() -> impl TypedValueParser<Value = PathBuf> {
+    OsStringValueParser::new().try_map(files::one)
 }
 
 fn parse_node_id(text: &str) -> Result<NodeId, String> {

@@ -1,8 +1,9 @@
 //! An EDS or DCF with the side-file beside it (docs/generating.md).
 
-use crate::files::unreadable;
+use crate::files::{another_own_file, own_file, unreadable};
 use crate::{Streams, printable};
 use edskit_codegen::{Naming, Problem};
+use edskit_model::own_file::OwnFile;
 use std::fs;
 use std::io;
 use std::path::Path;
@@ -21,6 +22,9 @@ impl DeviceFile {
     pub(crate) fn read(eds: &Path, side_file: Option<&Path>) -> Result<Self, String> {
         let mut naming = Naming::of(&eds.to_string_lossy());
         let bytes = fs::read(eds).map_err(|error| unreadable(&naming.eds, &error))?;
+        if let Some(reason) = own_file(&bytes) {
+            return Err(format!("{}: {reason}", naming.eds));
+        }
         if let Some(side_file) = side_file {
             naming.side_file = side_file.to_string_lossy().into_owned();
         }
@@ -29,6 +33,10 @@ impl DeviceFile {
             Err(error) if side_file.is_none() && error.kind() == std::io::ErrorKind::NotFound => None,
             Err(error) => return Err(unreadable(&naming.side_file, &error)),
         };
+        let another = text.as_deref().and_then(|text| another_own_file(text.as_bytes(), OwnFile::SideFile));
+        if let Some(reason) = another {
+            return Err(format!("{}: {reason}", naming.side_file));
+        }
         Ok(Self { eds: bytes, side_file: text, naming })
     }
 }

@@ -1,7 +1,11 @@
 //! Finding and reading the files of a command.
 
-use crate::Streams;
+mod globs;
+
+use crate::{Streams, paths};
 use edskit_model::Datasheet;
+use edskit_model::own_file::OwnFile;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -22,8 +26,7 @@ impl Input {
     /// The path as it is shown: `/` between its parts on every system.
     pub(crate) fn name(&self, stdin_name: &str) -> String {
         match self {
-            Self::File(path) if cfg!(windows) => path.to_string_lossy().replace('\\', "/"),
-            Self::File(path) => path.to_string_lossy().into_owned(),
+            Self::File(path) => paths::text(path),
             Self::Stdin(_) => stdin_name.to_owned(),
         }
     }
@@ -52,18 +55,49 @@ pub(crate) fn find(paths: &[PathBuf], streams: &mut Streams) -> io::Result<Input
             let mut bytes = Vec::new();
             streams.stdin.read_to_end(&mut bytes)?;
             found.inputs.push(Input::Stdin(bytes));
-        } else if path.is_dir() {
-            search(path, &mut found);
+        } else if globs::is_glob(path) {
+            match globs::expand(path) {
+                Ok(paths) => paths.iter().for_each(|path| add(path, &mut found)),
+                Err(reason) => found.failures.push(reason),
+            }
         } else {
-            found.inputs.push(Input::File(path.clone()));
+            add(path, &mut found);
         }
     }
     let mut seen = std::collections::HashSet::new();
     found.inputs.retain(|input| match input {
-        Input::File(path) => seen.insert(path.clone()),
+        Input::File(path) => seen.insert(paths::whole(path)),
         Input::Stdin(_) => true,
     });
     Ok(found)
+}
+
+fn add(path: &Path, found: &mut Inputs) {
+    if path.is_dir() {
+        search(path, found);
+    } else {
+        found.inputs.push(Input::File(path.to_path_buf()));
+    }
+}
+
+/// The one file that an argument names, which may be a glob.
+///
+/// # Errors
+/// Where a glob names no file, or several.
+pub(crate) fn one(argument: OsString) -> Result<PathBuf, String> {
+    let path = PathBuf::from(argument);
+    if !globs::is_glob(&path) {
+        return Ok(path);
+    }
+    let mut files = globs::expand(&path)?;
+    match files.len() {
+        1 => Ok(files.remove(0)),
+        count => Err(format!(
+            "{} files are meant by this, and one is wanted: {} is the first",
+            count,
+            files[0].display()
+        )),
+    }
 }
 
 /// Adds the files below `folder` that end like a CANopen file; what git ignores is passed over.
@@ -104,6 +138,18 @@ pub(crate) fn read(path: &Path, streams: &mut Streams) -> io::Result<Vec<u8>> {
         return Ok(bytes);
     }
     fs::read(path).map_err(|error| io::Error::new(error.kind(), unreadable(&path.to_string_lossy(), &error)))
+}
+
+/// What a file of edskit itself is, and which command takes it; `None` for other files.
+pub(crate) fn own_file(bytes: &[u8]) -> Option<String> {
+    let own = OwnFile::of(std::str::from_utf8(bytes).ok()?)?;
+    Some(format!("this is {}: {}", own.name(), own.command()))
+}
+
+/// The same where one kind of these files is wanted, and the file is another one.
+pub(crate) fn another_own_file(bytes: &[u8], wanted: OwnFile) -> Option<String> {
+    let is_wanted = std::str::from_utf8(bytes).ok().and_then(OwnFile::of) == Some(wanted);
+    own_file(bytes).filter(|_| !is_wanted)
 }
 
 /// Why a file could not be read.

@@ -1,13 +1,15 @@
 //! `edskit fmt`.
 
 use crate::cli::FmtArguments;
+use crate::difference;
 use crate::files::{self, Input};
+use crate::settings::{self, Finder};
 use crate::{Exit, Streams};
 use edskit_model::nature::Nature;
-use edskit_model::{Datasheet, Document, SectionKind, format};
-use similar::TextDiff;
+use edskit_model::{Datasheet, Document, SectionKind, Unformattable, try_format};
 use std::fs;
 use std::io::{self, Write};
+use std::path::Path;
 
 /// The name of standard input in messages.
 const STDIN: &str = "<stdin>";
@@ -20,7 +22,23 @@ pub(crate) fn run(arguments: &FmtArguments, streams: &mut Streams) -> io::Result
         exit = Exit::Failed;
     }
     let mut counts = Counts::default();
+    let mut finder = Finder::default();
     for input in &found.inputs {
+        if let Input::File(path) = input {
+            match is_excluded(path, &mut finder) {
+                Ok(false) => {}
+                Ok(true) => {
+                    if arguments.paths.contains(path) {
+                        streams.complain(format_args!("{}: {}", path.display(), settings::EXCLUDED));
+                    }
+                    continue;
+                }
+                Err(reason) => {
+                    streams.complain(format_args!("{reason}"));
+                    return Ok(Exit::Failed);
+                }
+            }
+        }
         match format_input(input, arguments, streams) {
             Ok(true) => counts.changed += 1,
             Ok(false) => counts.unchanged += 1,
@@ -36,6 +54,12 @@ pub(crate) fn run(arguments: &FmtArguments, streams: &mut Streams) -> io::Result
     }
     streams.stdout.flush()?;
     if only_looks && counts.changed > 0 { Ok(exit.max(Exit::Findings)) } else { Ok(exit) }
+}
+
+/// Whether the settings that hold for a file leave it alone.
+fn is_excluded(path: &Path, finder: &mut Finder) -> Result<bool, String> {
+    let settings = finder.find_for(path).map_err(|error| error.to_string())?;
+    Ok(settings.is_some_and(|settings| settings.excludes(path)))
 }
 
 #[derive(Default)]
@@ -61,12 +85,15 @@ fn format_input(input: &Input, arguments: &FmtArguments, streams: &mut Streams) 
     if Nature::of(before) != Nature::Text
         || sheet.sections().all(|section| section.kind() == SectionKind::Unknown)
     {
-        return Err(format!("{name}: left alone, this is no CANopen file; `edskit lint` says what it is"));
+        let reason = files::own_file(before);
+        let reason =
+            reason.unwrap_or_else(|| "this is no CANopen file; `edskit lint` says what it is".to_owned());
+        return Err(format!("{name}: left alone, {reason}"));
     }
-    let after = format(&sheet);
+    let after = try_format(&sheet).map_err(|reason| format!("{name}{}", left_alone(reason)))?;
     let changed = after != before;
     let written = if arguments.diff {
-        if changed { streams.stdout.write_all(diff(&name, &sheet, &after).as_bytes()) } else { Ok(()) }
+        if changed { streams.stdout.write_all(&difference::patch(&name, before, &after)) } else { Ok(()) }
     } else if arguments.check {
         if changed { writeln!(streams.stdout, "{name}") } else { Ok(()) }
     } else {
@@ -80,14 +107,16 @@ fn format_input(input: &Input, arguments: &FmtArguments, streams: &mut Streams) 
     Ok(changed)
 }
 
-/// A unified diff of the two texts as people read them.
-fn diff(name: &str, sheet: &Datasheet, after: &[u8]) -> String {
-    let encoding = sheet.document().encoding();
-    let before = encoding.decode(sheet.document().to_bytes());
-    let after = encoding.decode(after);
-    TextDiff::from_lines(before.as_ref(), after.as_ref())
-        .unified_diff()
-        .context_radius(3)
-        .header(name, &format!("{name} (formatted)"))
-        .to_string()
+/// Why a file is left alone, behind its name.
+fn left_alone(reason: Unformattable) -> String {
+    match reason {
+        Unformattable::Conflict(line) => format!(
+            ":{}: left alone, a version control system left a conflict here; decide which text is right first",
+            line + 1
+        ),
+        Unformattable::TooLarge => ": left alone, it is larger than 4 GiB".to_owned(),
+        Unformattable::ByteOrderMark => {
+            ": left alone, a byte order mark in the midst of the file would come to its start".to_owned()
+        }
+    }
 }

@@ -16,6 +16,7 @@ mod lint;
 mod live;
 mod monitor;
 mod nmt;
+mod paths;
 mod positions;
 mod printable;
 mod profiles;

@@ -1,19 +1,25 @@
 //! `edskit.toml`: which rules run where. It is found upwards from each file.
 
+use crate::files::another_own_file;
+use crate::paths;
 use crate::profiles::{self, Unusable};
 use edskit_lint::{Profile, RuleSet, Severity, UnknownRule};
+use edskit_model::own_file::OwnFile;
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 use serde::Deserialize;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::fs;
 use std::ops::Range;
-use std::path::{Path, PathBuf, absolute};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use toml::Spanned;
 
 /// The name of the file.
 pub(crate) const FILE_NAME: &str = "edskit.toml";
+
+/// What is said of a file that was named and is left out.
+pub(crate) const EXCLUDED: &str = "left out, because `exclude` of edskit.toml names it";
 
 /// One table of the file: the whole of it, or one `[[override]]`.
 #[derive(Deserialize, Debug, Default)]
@@ -31,6 +37,12 @@ struct Table {
     ignore: Vec<Spanned<String>>,
     /// Profile files, relative to the folder of the file; not in an override.
     profiles: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Files that are left alone: globs, relative to the folder of the file; not in an override.
+    exclude: Option<Spanned<Vec<Spanned<String>>>>,
+    /// From which severity on findings make the command fail; not in an override.
+    fail_on: Option<Spanned<Severity>>,
+    /// The findings that are known, in a file beside this one; not in an override.
+    baseline: Option<Spanned<String>>,
     /// How bad the findings of a rule are.
     #[serde(default)]
     severity: BTreeMap<Spanned<String>, Severity>,
@@ -45,6 +57,9 @@ pub(crate) struct Settings {
     folder: PathBuf,
     rules: RuleSet,
     profiles: Arc<[Profile]>,
+    exclude: GlobSet,
+    fail_on: Option<Severity>,
+    baseline: Option<PathBuf>,
     overrides: Vec<(GlobSet, Table)>,
 }
 
@@ -55,6 +70,9 @@ impl Settings {
             folder: PathBuf::new(),
             rules: RuleSet::default(),
             profiles: Arc::default(),
+            exclude: GlobSet::empty(),
+            fail_on: None,
+            baseline: None,
             overrides: Vec::new(),
         }
     }
@@ -63,6 +81,9 @@ impl Settings {
     pub(crate) fn read(path: &Path) -> Result<Self, SettingsError> {
         let plain = |message: String| SettingsError { path: path.to_path_buf(), place: None, message };
         let text = fs::read_to_string(path).map_err(|error| plain(error.to_string()))?;
+        if let Some(reason) = another_own_file(text.as_bytes(), OwnFile::Settings) {
+            return Err(plain(reason));
+        }
         let at = |span: Range<usize>, message: String| SettingsError {
             path: path.to_path_buf(),
             place: Some(line_and_column(&text, span.start)),
@@ -84,9 +105,9 @@ impl Settings {
             if !table.overrides.is_empty() {
                 return Err(at(span, "an `[[override]]` cannot hold another".to_owned()));
             }
-            if let Some(profiles) = &table.profiles {
-                let message = "profiles hold for all files: write `profiles` before the first table";
-                return Err(at(profiles.span(), message.to_owned()));
+            if let Some((key, place)) = table.for_all_files() {
+                let message = format!("`{key}` holds for all files: write it before the first table");
+                return Err(at(place, message));
             }
             let Some(files) = &table.files else {
                 return Err(at(span, "an `[[override]]` needs `files`, a list of globs".to_owned()));
@@ -95,19 +116,42 @@ impl Settings {
             table.change(&mut RuleSet::default()).map_err(unknown)?;
             overrides.push((globs, table));
         }
-        let folder =
-            absolute(path).ok().and_then(|path| path.parent().map(Path::to_path_buf)).unwrap_or_default();
+        let exclude = table.exclude.map(Spanned::into_inner).unwrap_or_default();
+        let exclude = globs(&exclude).map_err(|(span, message)| at(span, message))?;
+        let fail_on = table.fail_on.map(Spanned::into_inner);
+        let folder = paths::folder(path.parent().unwrap_or(Path::new("")));
+        let baseline = table.baseline.map(|baseline| folder.join(baseline.into_inner()));
         let mut profiles = Vec::new();
         for name in listed {
             let read = profiles::read(&folder.join(name.get_ref()));
             profiles.push(read.map_err(|error| SettingsError::profile(error, at, name.span()))?);
         }
-        Ok(Self { folder, rules, profiles: profiles.into(), overrides })
+        Ok(Self { folder, rules, profiles: profiles.into(), exclude, fail_on, baseline, overrides })
     }
 
     /// The profiles that devices are held to besides those of CiA.
     pub(crate) fn profiles(&self) -> &Arc<[Profile]> {
         &self.profiles
+    }
+
+    /// From which severity on findings make the command fail, where the file says it.
+    pub(crate) fn fail_on(&self) -> Option<Severity> {
+        self.fail_on
+    }
+
+    /// The baseline, where the file names one.
+    pub(crate) fn baseline(&self) -> Option<&Path> {
+        self.baseline.as_deref()
+    }
+
+    /// Whether a file is left alone.
+    pub(crate) fn excludes(&self, file: &Path) -> bool {
+        !self.exclude.is_empty() && self.exclude.is_match(self.relative(file))
+    }
+
+    /// A file as the globs see it: from the folder of the settings.
+    fn relative(&self, file: &Path) -> PathBuf {
+        paths::relative(&self.folder, &paths::whole(file))
     }
 
     /// The rules for one file.
@@ -116,9 +160,8 @@ impl Settings {
         if self.overrides.is_empty() {
             return rules;
         }
-        let whole = absolute(file).unwrap_or_else(|_| file.to_path_buf());
-        let relative = whole.strip_prefix(&self.folder).unwrap_or(&whole);
-        for (_, table) in self.overrides.iter().filter(|(globs, _)| globs.is_match(relative)) {
+        let relative = self.relative(file);
+        for (_, table) in self.overrides.iter().filter(|(globs, _)| globs.is_match(&relative)) {
             // Every selector was tried when the file was read.
             let tried = table.change(&mut rules);
             debug_assert!(tried.is_ok());
@@ -128,6 +171,15 @@ impl Settings {
 }
 
 impl Table {
+    /// A key that holds for all files and has no place in an override, if there is one.
+    fn for_all_files(&self) -> Option<(&'static str, Range<usize>)> {
+        let profiles = self.profiles.as_ref().map(|profiles| ("profiles", profiles.span()));
+        let exclude = self.exclude.as_ref().map(|exclude| ("exclude", exclude.span()));
+        let fail_on = self.fail_on.as_ref().map(|fail_on| ("fail-on", fail_on.span()));
+        let baseline = self.baseline.as_ref().map(|baseline| ("baseline", baseline.span()));
+        profiles.or(exclude).or(fail_on).or(baseline)
+    }
+
     /// Changes `rules` as the table says; the error names the place of a selector that names no rule.
     fn change(&self, rules: &mut RuleSet) -> Result<(), (Range<usize>, UnknownRule)> {
         let placed = |selector: &Spanned<String>| {
@@ -172,7 +224,15 @@ pub(crate) struct Finder {
 impl Finder {
     /// The settings that hold for files in `folder`: those of the nearest `edskit.toml` upwards.
     pub(crate) fn find(&mut self, folder: &Path) -> Result<Option<Arc<Settings>>, SettingsError> {
-        let folder = absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
+        self.find_upwards(paths::folder(folder))
+    }
+
+    /// The same for a file.
+    pub(crate) fn find_for(&mut self, file: &Path) -> Result<Option<Arc<Settings>>, SettingsError> {
+        self.find(file.parent().unwrap_or(Path::new("")))
+    }
+
+    fn find_upwards(&mut self, folder: PathBuf) -> Result<Option<Arc<Settings>>, SettingsError> {
         if let Some(known) = self.folders.get(&folder) {
             return Ok(known.clone());
         }
@@ -180,7 +240,7 @@ impl Finder {
         let found = if candidate.is_file() {
             Some(Arc::new(Settings::read(&candidate)?))
         } else {
-            folder.parent().map_or(Ok(None), |parent| self.find(parent))?
+            folder.parent().map_or(Ok(None), |parent| self.find_upwards(parent.to_path_buf()))?
         };
         self.folders.insert(folder, found.clone());
         Ok(found)
@@ -204,7 +264,7 @@ impl SettingsError {
         span: Range<usize>,
     ) -> SettingsError {
         match error {
-            Unusable::Unreadable(..) => at(span, error.to_string()),
+            Unusable::Unreadable(..) | Unusable::Another(..) => at(span, error.to_string()),
             Unusable::Wrong(path, error) => {
                 Self { path, place: Some((error.line, error.column)), message: error.message }
             }

@@ -2,7 +2,9 @@
 
 use std::ffi::OsStr;
 use std::process::Command;
-use std::{env, fmt};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::{env, fmt, thread};
 
 /// How a step ended.
 pub(crate) enum Outcome {
@@ -43,4 +45,24 @@ pub(crate) fn run(command: &mut Command) -> Outcome {
         Ok(status) => Outcome::Failed(status.to_string()),
         Err(error) => Outcome::Failed(format!("{}: {error}", command.get_program().display())),
     }
+}
+
+/// Does the work for each item, several at once, and gives the results in the order of the items.
+pub(crate) fn in_parallel<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let results: Vec<Mutex<Option<R>>> = items.iter().map(|_| Mutex::new(None)).collect();
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                loop {
+                    let place = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((item, result)) = items.get(place).zip(results.get(place)) else { return };
+                    let done = work(item);
+                    *result.lock().expect("nobody else has this place") = Some(done);
+                }
+            });
+        }
+    });
+    let done = results.into_iter().map(|result| result.into_inner().ok().flatten());
+    done.map(|result| result.expect("every place was done")).collect()
 }

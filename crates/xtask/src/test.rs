@@ -11,18 +11,7 @@ type Step = (&'static str, fn() -> Outcome);
 /// What has to hold.
 const STEPS: &[Step] = &[
     ("formatting", || step::run(&mut cargo(&["fmt", "--all", "--check"]))),
-    ("lints", || step::run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))),
-    ("lints of what is behind a feature", || {
-        step::run(&mut cargo(&[
-            "clippy",
-            "--package=edskit-host",
-            "--features=socketcan",
-            "--all-targets",
-            "--",
-            "-D",
-            "warnings",
-        ]))
-    }),
+    ("lints", lints),
     ("tests", || step::run(&mut cargo(&["test", "--workspace"]))),
     ("documentation", documentation),
     ("benchmarks", benchmarks),
@@ -31,7 +20,9 @@ const STEPS: &[Step] = &[
     ("size of a firmware", thumb::firmware),
     ("independent reading of the corpus", python::independent_reading),
     ("conformance of nodes", conformance::of_nodes),
+    ("every real file as a device", conformance::of_real_files),
     ("tutorial of the gateway", tutorial::of_gateway),
+    ("page on virtual time", tutorial::of_virtual_time),
 ];
 
 /// Runs every step, also behind one that failed, and ends with a summary; with words only the steps whose titles have
@@ -67,8 +58,18 @@ pub(crate) fn run(words: &[&str]) -> ExitCode {
     ExitCode::SUCCESS
 }
 
+/// Of everything, also of what is behind a feature.
+fn lints() -> Outcome {
+    let what = ["clippy", "--workspace", "--all-targets", "--features", "edskit-host/socketcan"];
+    step::run(cargo(&what).args(["--", "-D", "warnings"]))
+}
+
+/// With the examples, and with the feature of the lints: then no dependency has other features than there and is checked
+/// again.
 fn documentation() -> Outcome {
-    step::run(cargo(&["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
+    let what = ["doc", "--workspace", "--no-deps", "--lib", "--bins", "--examples"];
+    let mut doc = cargo(&what);
+    step::run(doc.args(["--features", "edskit-host/socketcan"]).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// Each once, in the build of the tests: they work, and measure nothing. What they print is a line for each that does.

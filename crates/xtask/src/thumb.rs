@@ -17,14 +17,18 @@ const FIRMWARE: &str = "tests/firmware";
 
 /// The most bytes of flash that the firmware with every service takes, and of memory that its node takes: what they were
 /// when they were measured last, and a little more for another compiler.
-const MOST_FLASH: u64 = 27_500;
-const MOST_MEMORY: u64 = 1_600;
+const MOST_FLASH: u64 = 31_800;
+const MOST_MEMORY: u64 = 1_700;
 
 /// Whether the crates of a device compile without an operating system.
 pub(crate) fn no_std() -> Outcome {
     with_toolchain(|bin| {
         let mut check = cargo(bin);
         check.env("CARGO_TARGET_DIR", root().join("target/thumb"));
+        // The generator runs once, in a build script: it need not be fast, but soon built.
+        for name in ["codegen", "lint", "model"] {
+            check.arg("--config").arg(format!("profile.dev.package.edskit-{name}.opt-level=0"));
+        }
         let crates = ["edskit-types", "edskit-runtime", "edskit-devices"].map(|name| ["-p", name]);
         run(check.args(["check", "--target", SMALLEST]).args(crates.as_flattened()))
     })

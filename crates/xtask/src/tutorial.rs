@@ -1,4 +1,4 @@
-//! Does what a tutorial says, and compares what it shows.
+//! Does what a page for users says, and compares what it shows.
 
 use crate::conformance::binaries;
 use crate::python;
@@ -12,7 +12,8 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 use std::{env, fs};
 
-const TUTORIAL: &str = "docs/gateway-tutorial.md";
+const OF_GATEWAY: &str = "docs/gateway-tutorial.md";
+const OF_VIRTUAL_TIME: &str = "docs/virtual-time.md";
 /// What the reader is told to copy.
 const COPIED: &str = "eds/CANopenGateway.eds";
 /// In expected output: anything within a line, or any lines where it stands alone.
@@ -31,27 +32,38 @@ enum Step {
 
 /// Whether the tutorial is true.
 pub(crate) fn of_gateway() -> Outcome {
+    is_true(OF_GATEWAY)
+}
+
+/// Whether the page on virtual time is true, the program in Rust included, which it shows whole.
+pub(crate) fn of_virtual_time() -> Outcome {
+    match run(&mut cargo(&["build", "--quiet", "--workspace", "--examples"])) {
+        Outcome::Passed => is_true(OF_VIRTUAL_TIME),
+        outcome => outcome,
+    }
+}
+
+fn is_true(page: &str) -> Outcome {
     let python = match python::installed(crate::conformance::VENV, crate::conformance::REQUIREMENTS) {
         Ok(python) => python,
         Err(reason) => return Outcome::LeftOut(reason),
     };
-    match run(&mut cargo(&["build", "--quiet", "--workspace", "--bin", "edskit"])) {
-        Outcome::Passed => {}
-        outcome => return outcome,
+    if let Err(reason) = crate::conformance::build_edskit() {
+        return Outcome::Failed(reason);
     }
-    match follow(&python) {
+    match follow(page, &python) {
         Ok(count) => {
-            say(format_args!("{TUTORIAL}: {count} files and commands"));
+            say(format_args!("{page}: {count} files and commands"));
             Outcome::Passed
         }
-        Err(reason) => Outcome::Failed(format!("{TUTORIAL}: {reason}")),
+        Err(reason) => Outcome::Failed(format!("{page}: {reason}")),
     }
 }
 
-fn follow(python: &Path) -> Result<usize, String> {
+fn follow(page: &str, python: &Path) -> Result<usize, String> {
     let wrong = |error: std::io::Error| error.to_string();
-    let text = fs::read_to_string(root().join(TUTORIAL)).map_err(wrong)?;
-    let folder = root().join("target/tutorial");
+    let text = fs::read_to_string(root().join(page)).map_err(wrong)?;
+    let folder = root().join("target").join(Path::new(page).file_stem().unwrap_or_default());
     fs::create_dir_all(&folder).map_err(wrong)?;
     fs::copy(root().join(COPIED), folder.join("CANopenGateway.eds")).map_err(wrong)?;
     let steps = steps(&text);
@@ -108,6 +120,7 @@ impl Program {
         let program = match words.next() {
             Some("edskit") => binaries().join("edskit"),
             Some("python") => python.to_owned(),
+            Some("cargo") => example(&mut words)?,
             other => return Err(format!("`{line}`: {other:?} is no program of the tutorial")),
         };
         let mut command = Command::new(absolute(&program));
@@ -144,6 +157,12 @@ impl Drop for Program {
         let _ = self.process.kill();
         let _ = self.process.wait();
     }
+}
+
+/// The example that `cargo run -p PACKAGE --example NAME` runs.
+fn example<'a>(words: &mut impl Iterator<Item = &'a str>) -> Result<PathBuf, String> {
+    let name = words.skip_while(|word| *word != "--example").nth(1);
+    name.map(|name| binaries().join("examples").join(name)).ok_or("cargo runs an example".to_owned())
 }
 
 /// The program, wherever the command is started.

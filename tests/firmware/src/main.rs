@@ -8,7 +8,7 @@ use controller::Controller;
 use core::mem::MaybeUninit;
 use core::panic::PanicInfo;
 use cortex_m_rt::entry;
-use edskit_runtime::{NoApplication, NoStorage, Node, Settings};
+use edskit_runtime::{NoApplication, NoStorage, Node};
 
 edskit_runtime::include_dictionary!("device");
 
@@ -18,7 +18,7 @@ type Device = Node<device::Dictionary, NoStorage>;
 fn main() -> ! {
     // In memory of its own and not on the stack, so that the linker says what it takes.
     static mut NODE: MaybeUninit<Device> = MaybeUninit::uninit();
-    let node = NODE.write(Node::new(device::Dictionary::new(), Settings::default(), NoStorage));
+    let node = NODE.write(Node::new(device::Dictionary::new(), device::SETTINGS, NoStorage));
     let mut application = NoApplication;
     let mut can = Controller;
     loop {

@@ -36,7 +36,13 @@ pub(super) struct Harness<'a> {
     allowed: Vec<CanId>,
     /// Whether the last request was one of a block upload, whose segments come with the polls.
     has_block_upload: bool,
+    /// Whether a response may wait for room that was asked for while nobody took what the node sends.
+    has_late_response: bool,
+    /// Whether the queue was emptied since anything was put into it.
+    is_drained: bool,
     device_type: Vec<u8>,
+    /// The error register that the last EMCY message had, whether or not it was sent.
+    told_register: u8,
     reached: Reached,
 }
 
@@ -86,7 +92,7 @@ impl<'a> Harness<'a> {
         let identity = [1, 2, 3, 4].map(|sub_index| {
             value(Index::IDENTITY, sub_index).try_into().expect("the identity has four numbers of 32 bits")
         });
-        let settings = Settings { node_id: NodeId::new(NODE_ID).ok(), ..Settings::default() };
+        let settings = Settings { node_id: NodeId::new(NODE_ID).ok(), ..layout.settings };
         Self {
             node: Node::new(LoadedDictionary::new(layout), settings, storage),
             device: MemoryDevice::default(),
@@ -97,7 +103,10 @@ impl<'a> Harness<'a> {
             stall: 0,
             allowed: Vec::new(),
             has_block_upload: false,
+            has_late_response: false,
+            is_drained: true,
             device_type: value(Index::DEVICE_TYPE, 0),
+            told_register: 0,
             reached: Reached::default(),
         }
     }
@@ -156,6 +165,8 @@ impl<'a> Harness<'a> {
             // The answer may be lost, so only what needs none is known.
             self.nmt.received(frame, &[])?;
             self.has_block_upload |= sdo.is_some();
+            self.has_late_response |= sdo.is_some();
+            self.is_drained = false;
         } else {
             let sent = self.sent()?;
             self.nmt.received(frame, &sent)?;
@@ -202,7 +213,11 @@ impl<'a> Harness<'a> {
             self.check_identifiers(&sent)?;
             let responses = self.responses(&sent, self.nmt.node_id);
             let is_time_out = |frame: &&Frame| matches!(frame.data(), [0x80, _, _, _, 0, 0, 4, 5]);
-            if !self.has_block_upload && !responses.iter().all(is_time_out) {
+            let may_be_late = self.has_late_response;
+            // With a poll of an empty queue every response is out.
+            self.has_late_response &= !self.is_drained;
+            self.is_drained = true;
+            if !self.has_block_upload && !may_be_late && !responses.iter().all(is_time_out) {
                 return Err(format!("nobody has asked for {responses:?}"));
             }
         }
@@ -261,7 +276,8 @@ impl<'a> Harness<'a> {
         }
     }
 
-    fn check_state(&self) -> Result<(), String> {
+    fn check_state(&mut self) -> Result<(), String> {
+        self.check_parameters()?;
         let (state, node_id) = (self.node.state(), self.node.node_id().map(NodeId::get));
         let expected = (self.nmt.state, self.nmt.node_id);
         if (state, node_id) == expected {
@@ -270,11 +286,35 @@ impl<'a> Harness<'a> {
         Err(format!("the node is in {state} with node-ID {node_id:?} instead of {expected:?}"))
     }
 
+    /// What the error register shows was told last, and no value is there that a client could not write.
+    fn check_parameters(&mut self) -> Result<(), String> {
+        let register: u8 = self.node.objects().value(Index::ERROR_REGISTER, 0).unwrap_or(0);
+        if register != self.told_register {
+            return Err(format!("1001h is {register:02X}h, and {:02X}h was told last", self.told_register));
+        }
+        // This looks at the whole dictionary, so not with every frame.
+        if self.random.u8(..) > 0 {
+            return Ok(());
+        }
+        let mut refused = Vec::new();
+        self.node.refused(&mut self.device, &mut |entry, code| refused.push((*entry, code)));
+        if refused.is_empty() { Ok(()) } else { Err(format!("a client could not write {refused:?}")) }
+    }
+
     /// Whether a heartbeat or the guarding was found missing since the last call.
     fn lost_heartbeats(&mut self) -> bool {
-        let mut events = self.device.take_events().into_iter();
-        let is_loss = |event| matches!(event, DeviceEvent::Emergency(emergency) if emergency.code == 0x8130);
-        events.any(is_loss)
+        let mut is_lost = false;
+        for event in self.device.take_events() {
+            match event {
+                DeviceEvent::State(NmtState::Initialising) => self.told_register = 0,
+                DeviceEvent::Emergency(emergency) => {
+                    self.told_register = emergency.register;
+                    is_lost |= emergency.code == 0x8130;
+                }
+                _ => {}
+            }
+        }
+        is_lost
     }
 
     /// The request, where the frame is one for the default SDO server and the node is in a state to take it.

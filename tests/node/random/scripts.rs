@@ -6,6 +6,39 @@ use edskit_types::CanId;
 use fastrand::Rng;
 use std::collections::VecDeque;
 
+/// What a client can write while the services run: index, sub-index and length.
+const PARAMETERS: [(u16, u8, u8); 29] = [
+    (0x1005, 0, 4),
+    (0x1006, 0, 4),
+    (0x1007, 0, 4),
+    (0x100C, 0, 2),
+    (0x100D, 0, 1),
+    (0x1014, 0, 4),
+    (0x1015, 0, 2),
+    (0x1016, 1, 4),
+    (0x1016, 2, 4),
+    (0x1017, 0, 2),
+    (0x1019, 0, 1),
+    (0x1029, 1, 1),
+    (0x1201, 1, 4),
+    (0x1201, 2, 4),
+    (0x1400, 1, 4),
+    (0x1400, 2, 1),
+    (0x1400, 5, 2),
+    (0x1401, 1, 4),
+    (0x1401, 2, 1),
+    (0x1401, 5, 2),
+    (0x1800, 1, 4),
+    (0x1800, 2, 1),
+    (0x1800, 3, 2),
+    (0x1800, 5, 2),
+    (0x1800, 6, 1),
+    (0x1801, 1, 4),
+    (0x1801, 2, 1),
+    (0x1801, 3, 2),
+    (0x1801, 5, 2),
+];
+
 /// One frame of a script.
 pub(super) enum Step {
     Frame(Frame),
@@ -29,7 +62,8 @@ impl Writer<'_> {
     pub(super) fn write(&mut self, own: u8) {
         self.script.clear();
         let sdo = 0x600 + u16::from(own);
-        match self.random.u8(0..10) {
+        match self.random.u8(0..14) {
+            10.. => self.parameters(sdo, own),
             0 => self.segmented_upload(sdo),
             1 => self.segmented_download(sdo),
             2 => self.block_upload(sdo),
@@ -163,6 +197,54 @@ impl Writer<'_> {
                 self.set(sdo, 0x1800, 3, 2, time * 10);
             }
         }
+    }
+
+    /// Parameters of every service, written while the services keep something: what waits for SYNC, a sample, a deadline.
+    fn parameters(&mut self, sdo: u16, own: u8) {
+        for _ in 0..self.random.u8(2..12) {
+            if self.random.bool() {
+                let step = self.something_to_keep(own);
+                self.script.push_back(step);
+            }
+            let (index, sub_index, bytes) = self.random.choice(PARAMETERS).unwrap_or((0x1017, 0, 2));
+            let value = match (index, sub_index) {
+                (0x1005, _) => self.random.choice([0x80, 0x4000_0080, 0x90]).unwrap_or(0x80),
+                (0x1014, _) => 0x80 + u32::from(own) | self.bit_31(),
+                (0x1016, _) => u32::from(self.random.u8(1..5)) << 16 | self.random.u32(0..40),
+                (0x1019, _) => self.random.choice([0, 2, 10, 240, 250]).unwrap_or(0),
+                (0x1029, _) => self.random.u32(0..4),
+                (0x1006, _) => self.random.choice([0, 1000, 20_000]).unwrap_or(0),
+                (0x1201, _) => 0x580 + 0x80 * u32::from(2 - sub_index) + 100 | self.bit_31(),
+                (0x1400..=0x1BFF, 1) => {
+                    let (base, number) =
+                        if index < 0x1800 { (0x200, index - 0x1400) } else { (0x180, index - 0x1800) };
+                    u32::from(base + (number << 8) + u16::from(own)) | self.bit_31()
+                }
+                (0x1400..=0x1BFF, 2) => self.random.choice([0, 1, 2, 252, 253, 254, 255]).unwrap_or(255),
+                _ => self.random.choice([0, 1, 20, 200]).unwrap_or(0),
+            };
+            self.set(sdo, index, sub_index, bytes, value);
+        }
+    }
+
+    /// Bit 31 of a COB-ID in one of two cases.
+    fn bit_31(&mut self) -> u32 {
+        u32::from(self.random.bool()) << 31
+    }
+
+    /// A frame after which a service keeps something.
+    fn something_to_keep(&mut self, own: u8) -> Step {
+        let (own, number) = (u16::from(own), self.random.u16(0..3) << 8);
+        let heard = 0x700 + self.random.u16(1..5);
+        Step::Frame(match self.random.u8(0..7) {
+            0 => frame(0, &[1, 0]),
+            1 => frame(0x200 + number + own, &[1, 2, 3, 4, 5, 6, 7, 8]),
+            2 => frame(0x200 + number + own, &[1]),
+            3 => frame(heard, &[5]),
+            4 => Frame::remote(CanId::standard(0x180 + number + own).expect("it has eleven bits"), 8),
+            5 => Frame::remote(CanId::standard(0x700 + own).expect("it has eleven bits"), 1),
+            _ => frame(0x80, &[]),
+        })
     }
 
     fn lss(&mut self, command: u8, number: [u8; 4], rest: [u8; 3]) {

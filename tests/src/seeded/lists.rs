@@ -55,6 +55,9 @@ fn counts() -> Vec<Defect> {
             });
             shifted.collect()
         }),
+        Defect::new("LST003", "a number in the midst that belongs elsewhere", |base| {
+            renumbered(base, |number, last| (number > 1 && number < last).then(|| (number + 80).to_string()))
+        }),
         Defect::new("LST003", "an item with a leading zero", |base| {
             renumbered(base, |number, last| (number == last).then(|| format!("0{number}")))
         }),

@@ -106,6 +106,12 @@ fn numbers() -> Vec<Defect> {
         value_of("OBJ014", "sub-index 00h is too large", "DefaultValue", is_full_highest, |_, old| {
             Some((number(old)? + 1).to_string()).filter(|_| old != "0")
         }),
+        Defect::new("OBJ028", "sub-objects numbered in decimal", |base| {
+            let objects = base.sections_where(Section::has_sub_objects).into_iter();
+            objects.filter_map(|object| in_decimal(base, object.index()?)).collect()
+        }),
+        missing("OBJ029", "a DOMAIN without its data type", "DataType", |section| section.is_code(2)),
+        missing("OBJ029", "a DOMAIN without its access", "AccessType", |section| section.is_code(2)),
         Defect::new("OBJ014", "the last sub-object is gone, but sub-index 00h counts it", |base| {
             let objects = base.sections_where(Section::has_sub_objects);
             let lost = objects.into_iter().filter_map(|section| {
@@ -318,4 +324,19 @@ fn is_unmapped(section: &Section) -> bool {
 
 fn is_process_data(section: &Section) -> bool {
     section.is_variable() && section.value("AccessType") == "rww"
+}
+
+/// An object whose sub-objects are named by decimal numbers; `None` where there are too few, or a gap.
+fn in_decimal(base: &Base, index: u16) -> Option<Mutant> {
+    let subs = base.sub_objects(index);
+    let count = base.sub_object(index, 0)?;
+    let counts = ["DefaultValue", "HighLimit"].map(|key| count.number(key));
+    let is_whole = subs.iter().enumerate().all(|(due, sub)| sub.sub_index().map(usize::from) == Some(due));
+    if subs.len() <= 10 || !is_whole || !counts.contains(&i64::try_from(subs.len() - 1).ok()) {
+        return None;
+    }
+    let named = subs.iter().enumerate().skip(10).fold(Mutant::of(base), |mutant, (number, sub)| {
+        mutant.rewrite_too(sub.header, format!("[{index:X}sub{number}]"))
+    });
+    Some(named.expect(subs[10].header))
 }

@@ -1,11 +1,11 @@
 //! PDO: mappings.
 
 use super::base::{Base, Entry, Section};
-use super::defect::{Defect, once, value};
+use super::defect::{Defect, missing, once, value, value_of};
 use super::mutant::Mutant;
 
 pub(super) fn defects() -> Vec<Defect> {
-    [counts(), entries(), targets(), dummies(), rights()].into_iter().flatten().collect()
+    [counts(), dummy_usage(), entries(), targets(), dummies(), rights()].into_iter().flatten().collect()
 }
 
 fn counts() -> Vec<Defect> {
@@ -32,6 +32,12 @@ fn counts() -> Vec<Defect> {
         mapping("PDO013", "a counted entry of 0", |base, map| {
             Some(Mutant::of(base).set(map.entries.first()?, "0x00000000"))
         }),
+        mapping("PDO013", "a counted entry without a value", |base, map| {
+            let entry = map.entries.last()?;
+            let section =
+                base.sections_where(|section| section.entries.iter().any(|own| own.line == entry.line));
+            Some(Mutant::of(base).delete(entry.line).expect(section.first()?.header))
+        }),
         mapping("PDO012", "an entry behind the counted ones", |base, map| {
             let free = base.sub_object(map.index, map.entries.len() as u8 + 1)?.entry("DefaultValue")?;
             Some(Mutant::of(base).set(free, &map.entries[0].value))
@@ -41,6 +47,21 @@ fn counts() -> Vec<Defect> {
             let last = map.entries.last().filter(|last| map.entries.len() > 1 && !is_dummy(last))?;
             Some(Mutant::of(base).set_too(map.count, &(map.entries.len() - 1).to_string()).expect(last.line))
         }),
+    ]
+}
+
+fn dummy_usage() -> Vec<Defect> {
+    let is_usage = |section: &Section| section.name == "DummyUsage";
+    vec![
+        missing("PDO027", "DummyUsage without the BOOLEAN", "Dummy0001", is_usage),
+        missing("PDO027", "DummyUsage without the INTEGER32", "Dummy0004", is_usage),
+        value_of("PDO027", "DummyUsage in hexadecimal", "Dummy0003", is_usage, |_, old| {
+            Some(format!("0x{old}"))
+        }),
+        value_of("PDO027", "DummyUsage with an empty entry", "Dummy0002", is_usage, |_, _| {
+            Some(String::new())
+        })
+        .by_label(),
     ]
 }
 

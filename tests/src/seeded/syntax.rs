@@ -1,7 +1,7 @@
 //! SYN: lines, sections and keys.
 
 use super::base::{Base, Entry, Section};
-use super::defect::{Defect, added, header, line_before, once, value_of};
+use super::defect::{Defect, added, header, line_before, missing, once, value_of};
 use super::mutant::Mutant;
 
 pub(super) fn defects() -> Vec<Defect> {
@@ -85,6 +85,27 @@ fn lines() -> Vec<Defect> {
         added("SYN008", "a line of text", |_| true, "not used any more"),
         added("SYN008", "a value without a key", |_| true, "=0x10"),
         added("SYN008", "a mark of a merge conflict", |_| true, "<<<<<<< HEAD"),
+        Defect::new("SYN008", "a merge conflict", |base| {
+            let entries = base.sections().iter().filter_map(|section| section.entries.last());
+            let conflict = entries.map(|entry| {
+                let behind = entry.line + 1;
+                let mutant =
+                    Mutant::of(base).insert(entry.line, "<<<<<<< HEAD").insert_too(behind, "=======");
+                let mutant = mutant.insert_too(behind, format!("{}={}1", entry.key, entry.value));
+                mutant.insert_too(behind, ">>>>>>> theirs")
+            });
+            conflict.collect()
+        }),
+        Defect::new("SYN008", "a merge conflict in the style of diff3", |base| {
+            let sections = base.sections_where(|section| section.is_object()).into_iter();
+            let conflict = sections.map(|section| {
+                let mutant = Mutant::of(base).insert(section.header, "<<<<<<< HEAD");
+                ["||||||| base", "[2FFF]", "ParameterName=old", "=======", "[2FFE]", ">>>>>>> theirs"]
+                    .into_iter()
+                    .fold(mutant, |mutant, line| mutant.insert_too(section.header, line))
+            });
+            conflict.collect()
+        }),
         Defect::new("SYN008", "a lost `=`", |base| {
             let entries = base.sections().iter().filter_map(|section| section.entry("PDOMapping"));
             entries.map(|entry| Mutant::of(base).rewrite(entry.line, "PDOMapping 0")).collect()
@@ -99,8 +120,6 @@ fn lines() -> Vec<Defect> {
             joined.collect()
         })
         .with_consequence("COM013", SWALLOWED)
-        .with_consequence("PDO001", SWALLOWED)
-        .with_consequence("PDO004", SWALLOWED)
         .with_consequence("PDO018", SWALLOWED)
         .with_consequence("PDO026", SWALLOWED)
         .with_consequence("VAL002", SWALLOWED),
@@ -128,6 +147,13 @@ fn comments() -> Vec<Defect> {
             entries.map(|entry| Mutant::of(base).rewrite(entry.line, "#PDOMapping=0")).collect()
         }),
         line_before("SYN027", "a suppression without a finding", |_| true, ";edskit: allow(SYN013) copied"),
+        line_before(
+            "SYN027",
+            "a suppression in capitals without a finding",
+            |_| true,
+            ";EDSKIT: allow(SYN013)",
+        ),
+        line_before("SYN027", "a suppression without its colon", |_| true, ";edskit allow(SYN013) copied"),
         line_before("SYN027", "a suppression of an unknown rule", |_| true, ";edskit: allow(OBJ999) copied"),
         value_of(
             "SYN012",
@@ -187,6 +213,14 @@ fn doubles() -> Vec<Defect> {
         Defect::new("SYN014", "a key that stands twice with the same value", |base| {
             doubled(base, &["AccessType", "ObjectType", "NetName"], |key, value| format!("{key}={value}"))
         }),
+        Defect::new("SYN014", "a number of a list that stands twice", |base| {
+            let lists = base.sections_where(|section| section.items().len() > 2).into_iter();
+            let twice = lists.filter(|list| list.items()[1].key == "2").map(|list| {
+                let item = list.items()[2].clone();
+                Mutant::of(base).rewrite(item.line, format!("2={}", item.value))
+            });
+            twice.collect()
+        }),
         Defect::new("SYN014", "a key that stands twice, in other case", |base| {
             let keys = ["AccessType", "VendorName", "NetName"];
             doubled(base, &keys, |key, value| format!("{}={value}x", key.to_ascii_uppercase()))
@@ -225,6 +259,45 @@ fn names() -> Vec<Defect> {
         }),
         header(
             "SYN023",
+            "letters in the place of digits",
+            |section| section.is_of_manufacturer() && section.is_object() && section.name.contains('0'),
+            |section| format!("[{}]", section.name.replace('0', "O")),
+        ),
+        header(
+            "SYN023",
+            "a letter in the place of a digit of a mapping parameter",
+            |section| {
+                section.is_object()
+                    && (section.is_within(0x1600, 0x17FF) || section.is_within(0x1A00, 0x1BFF))
+            },
+            |section| format!("[l{}]", &section.name[1..]),
+        ),
+        header(
+            "SYN029",
+            "a section in another case",
+            |section| matches!(&*section.name, "FileInfo" | "DeviceInfo" | "DummyUsage" | "Comments"),
+            |section| format!("[{}]", section.name.to_ascii_lowercase()),
+        ),
+        header("SYN029", "sub-objects in capitals", Section::is_sub_object, |section| {
+            format!("[{}]", section.name.replace("sub", "SUB"))
+        }),
+        Defect::new("SYN029", "a key in another case", |base| {
+            let keys = ["ParameterName", "DataType", "AccessType", "Line1", "Dummy0001", "Granularity"];
+            let entries = base.sections().iter().flat_map(|section| keys.map(|key| section.entry(key)));
+            let other = entries.flatten().map(|entry| {
+                Mutant::of(base).rewrite(entry.line, format!("{}={}", other_case(&entry.key), entry.value))
+            });
+            other.collect()
+        }),
+        counted("more lines than there are", "Lines", 1),
+        counted("fewer lines than there are", "Lines", -1),
+        counted("more segments than there are", "NrOfSeg", 1),
+        counted("fewer segments than there are", "NrOfSeg", -1),
+        counted("more tools than there are", "Items", 1),
+        counted("fewer tools than there are", "Items", -1),
+        missing("SYN028", "comments without a count", "Lines", |section| section.name == "Comments"),
+        header(
+            "SYN023",
             "a misspelt section",
             |section| MISSPELT_SECTIONS.contains(&&*section.name),
             |section| format!("[{}]", section.name.replacen('m', "n", 1)),
@@ -241,6 +314,11 @@ fn names() -> Vec<Defect> {
         misspelt("Granularity", "Granularty"),
         misspelt("Description", "Descripton"),
     ]
+}
+
+/// A section that counts something else than there is.
+fn counted(kind: &'static str, key: &'static str, by: i64) -> Defect {
+    value_of("SYN028", kind, key, |_| true, move |_, old| Some((old.parse::<i64>().ok()? + by).to_string()))
 }
 
 /// Optional sections, so that none is missing.

@@ -100,6 +100,17 @@ fn limits() -> Vec<Defect> {
             Some((section.number("LowLimit")? - 1).to_string())
         })
         .by_label(),
+        Defect::new("VAL003", "limits that no reading of a signed type has", |base| {
+            let sections = base
+                .sections_where(|section| has_limits(section) && section.number("DefaultValue") >= Some(0));
+            let all = sections.into_iter().filter_map(|section| {
+                let bits = [2, 3, 4].into_iter().position(|data_type| section.is_type(data_type))?;
+                let most = ["0xFF", "0xFFFF", "0xFFFFFFFF"][bits];
+                let mutant = Mutant::of(base).set_too(section.entry("LowLimit")?, "0x00");
+                Some(mutant.set(section.entry("HighLimit")?, most))
+            });
+            all.collect()
+        }),
         value_of("VAL004", "a default above the upper limit", "DefaultValue", has_limits, |section, _| {
             Some((section.number("HighLimit")? + 1).to_string())
         }),

@@ -8,6 +8,7 @@ mod groups;
 mod image;
 mod limits;
 mod mappings;
+mod settings;
 mod value;
 
 #[cfg(test)]
@@ -20,7 +21,7 @@ pub use mappings::{Mapped, Mapping, Place};
 use crate::{InputFile, Problem, SideFile};
 use edskit_lint::Severity;
 use edskit_model::{Datasheet, KeyName, Position as TextPosition, SectionKind, Span};
-use edskit_runtime::{Entry, Flags, Limits, Position, Table};
+use edskit_runtime::{Entry, Flags, Limits, Position, Settings, Table};
 use edskit_types::{AccessType, DataType};
 use gather::Item;
 use image::Images;
@@ -60,6 +61,8 @@ pub struct Layout {
     pub fingerprint: u32,
     /// How much working memory a node needs.
     pub counts: Counts,
+    /// What `[DeviceInfo]` says to a node, with a node-ID of 1.
+    pub settings: Settings,
     /// The mappings of power-on, in ascending order.
     pub mappings: Vec<Mapping>,
     /// The name of the product, where the file has one.
@@ -174,11 +177,15 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
         return Err(errors);
     }
     let Images { constants, defaults, .. } = images;
+    let mappings = mappings::read(&items, sheet.document());
+    let settings = settings::read(sheet, &entries, &mappings, &mut notes);
+    notes.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
     Ok(Layout {
         counts: Counts::of(&entries),
+        settings,
         fingerprint: fingerprint(&entries),
         entries,
-        mappings: mappings::read(&items, sheet.document()),
+        mappings,
         cob_ids: cob_ids::read(&items, sheet.document()),
         constants,
         defaults,
@@ -222,11 +229,13 @@ fn dummies(sheet: &Datasheet) -> u32 {
     allowed.fold(0, |bits, entry| bits | 1_u32.checked_shl(entry.key().number.into()).unwrap_or(0))
 }
 
-/// FNV-1a over what stored values depend on: the place, type and size of each entry. Defaults do not count, so that
+/// FNV-1a over what stored values depend on: the place, type, size and group of each entry. Defaults do not count, so that
 /// stored values outlive a change of them.
 fn fingerprint(entries: &[Entry]) -> u32 {
     let bytes = entries.iter().flat_map(|entry| {
-        let numbers = [entry.index.0, u16::from(entry.sub_index.0), entry.data_type.index().0, entry.size];
+        let group = entry.flags.group().map_or(0, |group| u16::from(group.0));
+        let place = u16::from(entry.sub_index.0) | group << 8;
+        let numbers = [entry.index.0, place, entry.data_type.index().0, entry.size];
         numbers.into_iter().flat_map(u16::to_le_bytes)
     });
     bytes.fold(0x811C_9DC5, |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))

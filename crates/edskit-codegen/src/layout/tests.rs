@@ -1,7 +1,7 @@
 use super::*;
 use crate::parse;
 use edskit_runtime::StorageGroup;
-use edskit_types::{Index, SubIndex};
+use edskit_types::{BitRates, Bitrate, Index, SubIndex};
 
 /// An object of an EDS.
 fn object(header: &str, name: &str, keys: &str) -> String {
@@ -283,7 +283,7 @@ fn a_side_file_names_entries_of_some_configurations_and_units() {
     let optional: Vec<bool> = layout.entries.iter().map(|entry| entry.flags.has(Flags::OPTIONAL)).collect();
     assert_eq!(optional, [false, true]);
     assert!(layout.sources.iter().all(|source| source.unit.as_deref() == Some("mm")));
-    assert_eq!(messages(&layout.notes), ["a.toml:1:21: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.assumptions), ["a.toml:1:21: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -299,7 +299,7 @@ fn a_side_file_names_what_the_device_changes() {
     assert_eq!(variable, [true, true, false, true, false], "a domain lies nowhere");
     assert_eq!(layout.defaults, [&b"\x04\0Pump"[..], &[2], &[2, 0, 0, 0]].concat());
     assert_eq!(entry(&layout, 0x1018, 2).flags, Flags::READ.and(Flags::VARIABLE), "it is not stored");
-    assert_eq!(messages(&layout.notes), ["a.toml:1:53: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.assumptions), ["a.toml:1:53: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -321,7 +321,7 @@ fn a_side_file_names_what_rpdos_write() {
     assert_eq!(of(0x2001), received);
     assert_eq!(of(0x2002), Flags::READ, "no PDO carries a domain");
     assert_eq!(of(0x2003), Flags::READ.and(Flags::VARIABLE));
-    assert_eq!(messages(&layout.notes), ["a.toml:1:22: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.assumptions), ["a.toml:1:22: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -591,7 +591,7 @@ fn the_error_history_begins_empty_and_can_be_cleared_in_every_form() {
             assert_eq!(value(&layout, 0x1001, 0), (0, false));
             assert!(entry(&layout, 0x1003, 0).flags.has(Flags::READ.and(Flags::WRITE).and(Flags::VARIABLE)));
             assert!(!entry(&layout, 0x1003, 1).flags.has(Flags::WRITE));
-            assert_eq!(layout.notes.len(), notes + 1, "{:?}", messages(&layout.notes));
+            assert_eq!(layout.notes.len(), notes + 1, "{:?}", messages(&layout.assumptions));
         }
     }
 }
@@ -674,6 +674,41 @@ fn cob_ids_that_cannot_be_used_are_told() {
     }
     let implicit = device("[DeviceInfo]\nCompactPDO=0x13\nNrOfRXPDO=5\nNrOfTXPDO=5\n");
     assert_eq!((implicit.cob_ids.len(), implicit.cob_id_problems(None).len()), (10, 0));
+}
+
+#[test]
+fn device_info_says_what_a_node_may() {
+    let of = |keys: &str| {
+        let text = format!("[DeviceInfo]\n{}\n", keys.replace(' ', "\n"));
+        layout(&(text + &object("2000", "x", "DataType=6 AccessType=rw PDOMapping=1")), "").settings
+    };
+    let nothing = of("VendorName=edskit");
+    assert_eq!((nothing.bit_rates, nothing.has_lss, nothing.granularity), (BitRates::ALL, true, 1));
+    assert!(!nothing.starts_by_itself);
+    let some = of("BaudRate_10=0 BaudRate_125=1 BaudRate_500=0x1 LSS_Supported=0 Granularity=8");
+    assert_eq!(some.bit_rates, BitRates::NONE.and(Bitrate::Kbit125).and(Bitrate::Kbit500));
+    assert_eq!((some.has_lss, some.granularity), (false, 8));
+    assert_eq!(of("BaudRate_10=0 BaudRate_20=0").bit_rates, BitRates::NONE);
+    for (keys, starts) in [
+        ("SimpleBootUpMaster=1 SimpleBootUpSlave=0", true),
+        ("SimpleBootUpMaster=1 SimpleBootUpSlave=1", false),
+        ("SimpleBootUpMaster=0 SimpleBootUpSlave=0", false),
+        ("SimpleBootUpMaster=1", false),
+    ] {
+        assert_eq!(of(keys).starts_by_itself, starts, "{keys}");
+    }
+}
+
+#[test]
+fn a_granularity_that_the_file_contradicts_counts_as_1() {
+    let eds = "[DeviceInfo]\nGranularity=64\n".to_owned()
+        + &object("1A00sub1", "x", "DataType=7 AccessType=rw DefaultValue=0x20000010")
+        + &object("2000", "x", "DataType=6 AccessType=rw PDOMapping=1");
+    let layout = layout(&eds, "");
+    assert_eq!(layout.settings.granularity, 1);
+    let said = messages(&layout.assumptions);
+    let expected = "a.eds:2:13: GEN Granularity 64 counts as 1, because 2000h sub-index 00h with its 16 bits can be mapped";
+    assert!(said.iter().any(|line| line == expected), "{said:#?}");
 }
 
 #[test]

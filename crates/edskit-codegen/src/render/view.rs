@@ -5,8 +5,8 @@ use crate::identifier::{Named, handle_names};
 use crate::text::{for_comment, for_docs, for_message};
 use crate::{Counts, InputFile, Layout, Place, Source};
 use askama::Template;
-use edskit_runtime::{Entry, Flags, StorageGroup};
-use edskit_types::{DataType, DataTypeKind, MappingEntry, PdoDirection};
+use edskit_runtime::{Entry, Flags, Settings, StorageGroup};
+use edskit_types::{BitRates, Bitrate, DataType, DataTypeKind, MappingEntry, PdoDirection};
 use std::collections::BTreeMap;
 
 /// How many bytes stand in one line of an image.
@@ -30,6 +30,8 @@ pub(super) struct View<'a> {
     limits: Vec<LimitsRow>,
     dummies: String,
     fingerprint: String,
+    bit_rates: String,
+    settings: Settings,
     checks: Vec<CheckRow>,
     has_handles: bool,
     has_positions: bool,
@@ -92,12 +94,24 @@ impl<'a> View<'a> {
             limits: limits(layout),
             dummies: format!("0x{:02X}", layout.dummies),
             fingerprint: format!("0x{:04X}_{:04X}", layout.fingerprint >> 16, layout.fingerprint & 0xFFFF),
+            bit_rates: bit_rates(layout.settings.bit_rates),
+            settings: layout.settings,
             checks: checks(layout, naming),
             has_handles: handles.iter().any(|handle| handle.value.is_some()),
             has_positions: !handles.is_empty(),
             handles,
         }
     }
+}
+
+/// A set of bit rates as code.
+fn bit_rates(bit_rates: BitRates) -> String {
+    if bit_rates == BitRates::ALL {
+        return "BitRates::ALL".to_owned();
+    }
+    let supported = Bitrate::ALL.iter().filter(|bit_rate| bit_rates.has(**bit_rate));
+    let more: String = supported.map(|bit_rate| format!(".and(Bitrate::{bit_rate:?})")).collect();
+    format!("BitRates::NONE{more}")
 }
 
 /// The entries, with their names in a column behind them.

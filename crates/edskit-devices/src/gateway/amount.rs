@@ -4,7 +4,7 @@ use super::parameter::{Parameter, Quantity, Values};
 use core::fmt;
 
 /// A value with its unit: `100 ms`, `1.0 s`, `282h`, `125 kbit/s`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Amount {
     value: i32,
     quantity: Quantity,
@@ -32,12 +32,30 @@ impl Parameter {
 }
 
 impl Amount {
+    /// A number of something.
+    pub(super) const fn new(value: i32, quantity: Quantity) -> Self {
+        Self { value, quantity }
+    }
+
+    /// The number, in parts of the unit where [`Quantity::per_unit`] is not 1.
+    #[must_use]
+    pub const fn value(self) -> i32 {
+        self.value
+    }
+
+    /// What it is a number of.
+    #[must_use]
+    pub const fn quantity(self) -> Quantity {
+        self.quantity
+    }
+
     /// The number without its unit.
     fn write_number(self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { value, quantity } = self;
         match quantity {
             Quantity::Identifier if value >= 0 => write!(f, "{value:03X}h"),
-            Quantity::Seconds => {
+            Quantity::Bits if value >= 0 => write!(f, "{value:04X}h"),
+            Quantity::Seconds | Quantity::Volts | Quantity::FineMilliseconds => {
                 let milliseconds = value.unsigned_abs() % 1000;
                 let sign = if value < 0 { "-" } else { "" };
                 write!(f, "{sign}{}.", value.unsigned_abs() / 1000)?;
@@ -55,9 +73,10 @@ impl Amount {
 /// The unit with a blank before it.
 const fn unit(quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::Number | Quantity::Identifier => "",
+        Quantity::Number | Quantity::Identifier | Quantity::Bits => "",
         Quantity::Seconds => " s",
-        Quantity::Milliseconds => " ms",
+        Quantity::Milliseconds | Quantity::FineMilliseconds => " ms",
+        Quantity::Volts => " V",
         Quantity::KbitPerSecond => " kbit/s",
     }
 }

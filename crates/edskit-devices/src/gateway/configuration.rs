@@ -37,7 +37,7 @@ impl Configuration {
     /// The value of a parameter.
     #[must_use]
     pub const fn get(&self, parameter: Parameter) -> i32 {
-        self.values[parameter.position()]
+        self.values[parameter.main().position()]
     }
 
     /// Gives a parameter a value.
@@ -50,13 +50,13 @@ impl Configuration {
         if !parameter.values().contain(value) {
             return Err(OutOfRange { parameter, value });
         }
-        self.values[parameter.position()] = value;
+        self.values[parameter.main().position()] = value;
         Ok(())
     }
 
     /// Gives a parameter the value that it has in another configuration.
     pub(super) fn copy(&mut self, parameter: Parameter, from: &Self) {
-        if let Some(place) = self.values.get_mut(parameter.position()) {
+        if let Some(place) = self.values.get_mut(parameter.main().position()) {
             *place = from.get(parameter);
         }
     }

@@ -64,6 +64,11 @@ impl ControlUnit {
         matches!(self.power, Power::On(_))
     }
 
+    /// Whether its program is kept from starting.
+    pub(super) fn is_held(&self) -> bool {
+        self.power == Power::Held
+    }
+
     /// Whether it has its supply.
     pub(super) fn is_powered(&self) -> bool {
         self.power != Power::Off

@@ -62,7 +62,7 @@ mod tests {
         let cob_id = READ.and(Flags::NODE_RELATIVE);
         assert_flags(0x1016..=0x1016, 1..=0xFF, 1, READ);
         assert_flags(0x1017..=0x1017, 0..=0xFF, 1, READ);
-        assert_flags(0x1018..=0x1018, 3..=4, 2, READ);
+        assert_flags(0x1018..=0x1018, 4..=4, 1, READ);
         assert_flags(0x1400..=0x1403, 1..=1, 4, cob_id);
         assert_flags(0x1800..=0x180F, 1..=1, 16, cob_id);
         assert_flags(0x1600..=0x1603, 0..=0, 4, READ);

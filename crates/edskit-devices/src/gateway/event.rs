@@ -1,5 +1,6 @@
 //! What happens in the gateway, for those who watch it.
 
+use super::eeprom::EepromErrors;
 use super::error::{CanOpenError, GatewayError};
 use super::parameter::Owner;
 use super::state::State;
@@ -41,6 +42,9 @@ pub enum Event {
         /// Whether it is present.
         bool,
     ),
+    /// A start of the gateway has found bad pages in its EEPROM: 3099 EEPROMErrorCode, which lasts until a start that finds
+    /// none (9.4; GW-APP-47).
+    EepromErrors(EepromErrors),
     /// The error memory cannot be written.
     NotStored,
     /// So many events were lost, because nobody took them in time.

@@ -14,6 +14,9 @@ pub enum Fault {
     GatewayTransmitBuffer1,
     /// The gateway's receive buffer of the HEINZMANN bus overflows (7.2.1; 2402).
     GatewayReceiveBuffer1,
+    /// The gateway's special buffer for the CANopen telegrams of the governor overflows. It happens, and is over (7.2.1, 9.5
+    /// on 12422; GW-APP-49).
+    CanOpenBuffer1,
     /// A second participant on the HEINZMANN bus has the type and number of the gateway (7.2.1; 2404).
     DuplicateGateway,
     /// The gateway's controller of the CANopen bus (9.4 on 3072).
@@ -44,11 +47,12 @@ pub enum Fault {
 
 impl Fault {
     /// Every fault.
-    pub const ALL: [Fault; 17] = [
+    pub const ALL: [Fault; 18] = [
         Self::LinkBroken,
         Self::GatewayCanBus1,
         Self::GatewayTransmitBuffer1,
         Self::GatewayReceiveBuffer1,
+        Self::CanOpenBuffer1,
         Self::DuplicateGateway,
         Self::GatewayCanBus2,
         Self::ReceiveBuffer2,
@@ -67,7 +71,7 @@ impl Fault {
     /// Whether it happens and is over, instead of lasting until it is removed.
     #[must_use]
     pub const fn is_momentary(self) -> bool {
-        matches!(self, Self::ReceiveBuffer2 | Self::TransmitBuffer2)
+        matches!(self, Self::CanOpenBuffer1 | Self::ReceiveBuffer2 | Self::TransmitBuffer2)
     }
 
     /// The error of the gateway that it causes at once; that of a broken link takes the time that a silent partner is
@@ -76,11 +80,12 @@ impl Fault {
     pub const fn gateway_error(self) -> Option<GatewayError> {
         match self {
             Self::GatewayCanBus1 => Some(GatewayError::CanBus1),
-            Self::GatewayTransmitBuffer1 | Self::GatewayReceiveBuffer1 | Self::DuplicateGateway => {
-                Some(GatewayError::CanComm1)
-            }
+            Self::GatewayTransmitBuffer1
+            | Self::GatewayReceiveBuffer1
+            | Self::CanOpenBuffer1
+            | Self::DuplicateGateway => Some(GatewayError::CanComm1),
             Self::GatewayCanBus2 => Some(GatewayError::CanBus2),
-            // An overflow of the CANopen receive buffer is one of 3073 alone (GW-NOTE-29).
+            // There are two buffers for CANopen: that of the HEINZMANN side, and that of the CANopen side (GW-NOTE-29).
             Self::ReceiveBuffer2 | Self::TransmitBuffer2 => Some(GatewayError::CanComm2),
             Self::ParamStore => Some(GatewayError::ParamStore),
             Self::ProgramTest => Some(GatewayError::ProgramTest),

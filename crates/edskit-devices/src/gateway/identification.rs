@@ -7,7 +7,7 @@ pub struct Identification {
     pub hardware_version: u16,
     /// 3841 AddHardwareVersion, 0 to 9999.
     pub additional_hardware_version: u16,
-    /// 3842 SoftwareVersion; sub-index 03h of 1018h shows it (GW-GAP-04).
+    /// 3842 SoftwareVersion. Sub-index 03h of 1018h does not show it: it is 0, as the data sheet says (GW-GAP-04).
     pub software_version: u16,
     /// 3843 BootSoftwareVersion.
     pub boot_software_version: u16,

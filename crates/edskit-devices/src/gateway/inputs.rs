@@ -41,6 +41,9 @@ pub(super) struct Reception {
 pub enum Sensor {
     /// Its value, in the governor's internal range.
     Valid(u16),
+    /// It is monitored and none of its RPDOs has come since operational began, so that it has no value. It is no error until
+    /// the monitoring triggers: the governor goes on with what it used before (9.6; GW-NOTE-47).
+    Awaited,
     /// One of the conditions of 9.6 holds, so that the governor treats it as broken.
     Faulty,
 }
@@ -55,13 +58,13 @@ impl Inputs<'_> {
 
     /// The switch function of this assignment, P811 and following; `None` where it does not come from CANopen.
     ///
-    /// It is inactive where it is not assigned, and where one of the conditions of 9.7 holds, low-active or not
-    /// (7.1.4.1, 9.7; GW-APP-12, GW-APP-13, GW-NOTE-15).
+    /// It is inactive where it is not assigned, where one of the conditions of 9.7 holds, and before the first RPDO 1 since
+    /// operational began, low-active or not: the bit has not been received (7.1.4.1, 9.7; GW-APP-12, GW-APP-13, GW-NOTE-15).
     #[must_use]
     pub fn switch_function(&self, assignment: Parameter) -> Option<bool> {
         let input = self.configuration.switch_functions().find(|input| input.assignment == assignment)?;
         Some(match input.target {
-            Target::Bit { number, low_active } if !self.reception.switches_are_faulty() => {
+            Target::Bit { number, low_active } if self.reception.has_switches() => {
                 // Bit number 1 is the least significant one (GW-NOTE-12).
                 let bit = self.reception.switches >> (number - 1) & 1 == 1;
                 bit != low_active
@@ -110,15 +113,20 @@ impl Reception {
             || self.flags >> place & 1 == 1
             || self.monitoring_of(1).0.is_triggered()
             || self.heartbeat_is_missing;
-        Some(if is_faulty { Sensor::Faulty } else { Sensor::Valid(value) })
+        Some(match carrier.has_ever_arrived() {
+            _ if is_faulty => Sensor::Faulty,
+            true => Sensor::Valid(value),
+            false => Sensor::Awaited,
+        })
     }
 
-    /// Whether no switch function can be believed (9.7; GW-APP-12).
-    fn switches_are_faulty(&self) -> bool {
-        let (carrier, is_monitored) = self.monitoring_of(1);
-        !self.is_operational
-            || carrier.is_triggered()
-            || (!is_monitored && !carrier.has_ever_arrived())
-            || self.heartbeat_is_missing
+    /// Whether the switch functions have come and can be believed (9.7; GW-APP-12). Without monitoring it is an error that
+    /// they have never come; with it they have no value until then.
+    fn has_switches(&self) -> bool {
+        let (carrier, _) = self.monitoring_of(1);
+        self.is_operational
+            && carrier.has_ever_arrived()
+            && !carrier.is_triggered()
+            && !self.heartbeat_is_missing
     }
 }

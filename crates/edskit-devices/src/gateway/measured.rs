@@ -1,5 +1,8 @@
 //! What the gateway shows and nobody can set.
 
+use super::name::Name;
+use super::parameter::Quantity;
+
 /// The name of a measured value of the gateway (list 2: 11.1, 11.3; GW-APP-38 to GW-APP-42).
 ///
 /// ```
@@ -9,11 +12,11 @@
 /// ```
 #[must_use]
 pub fn measured_value(number: u16) -> Option<&'static str> {
-    let place = MEASURED.binary_search_by_key(&number, |(own, _)| *own).ok()?;
-    MEASURED.get(place).map(|(_, name)| *name)
+    let place = MEASURED_VALUES.binary_search_by_key(&number, |(own, _)| *own).ok()?;
+    MEASURED_VALUES.get(place).map(|(_, name)| *name)
 }
 
-/// The number of a measured value of the gateway with this name, in any case.
+/// The number of a measured value of the gateway with this name, in any case and with or without blanks.
 ///
 /// ```
 /// use edskit_devices::gateway::measured_value_by_name;
@@ -21,11 +24,22 @@ pub fn measured_value(number: u16) -> Option<&'static str> {
 /// ```
 #[must_use]
 pub fn measured_value_by_name(name: &str) -> Option<u16> {
-    MEASURED.iter().find(|(_, own)| own.eq_ignore_ascii_case(name)).map(|(number, _)| *number)
+    MEASURED_VALUES.iter().find(|(_, own)| Name::plain(own).is(name)).map(|(number, _)| *number)
 }
 
-/// In the order of the numbers.
-const MEASURED: &[(u16, &str)] = &[
+/// What a measured value is a number of (11.3).
+pub(super) const fn quantity(number: u16) -> Quantity {
+    match number {
+        2401..=2404 | 2410 | 2411 | 2424 | 2425 | 3099 | 3196..=3198 | 3895..=3898 | 12410 => Quantity::Bits,
+        3600 => Quantity::Volts,
+        3865 => Quantity::FineMilliseconds,
+        3870 => Quantity::Seconds,
+        _ => Quantity::Number,
+    }
+}
+
+/// Every measured value that the lists of the manual name, in the order of the numbers (11.1, 11.3).
+pub const MEASURED_VALUES: &[(u16, &str)] = &[
     (2401, "CanTxBufferState"),
     (2402, "CanRxBufferState"),
     (2403, "CanRxTimeout"),
@@ -106,8 +120,8 @@ mod tests {
 
     #[test]
     fn the_list_is_sorted_and_holds_no_parameter() {
-        assert!(MEASURED.is_sorted_by(|(a, _), (b, _)| a < b));
-        for (number, name) in MEASURED {
+        assert!(MEASURED_VALUES.is_sorted_by(|(a, _), (b, _)| a < b));
+        for (number, name) in MEASURED_VALUES {
             assert_eq!(measured_value(*number), Some(*name));
             assert_eq!(
                 crate::gateway::Parameter::find(crate::gateway::Owner::Gateway, *number),

@@ -18,7 +18,7 @@ pub struct Name {
 impl Name {
     pub(super) fn of(parameter: Parameter) -> Option<Name> {
         let offset = parameter.offset;
-        let plain = |stem, index| Some(Name { stem, number: None, middle: "", index });
+        let plain = |stem, index| Some(Name { index, ..Name::plain(stem) });
         match parameter.series.naming {
             Naming::Single(stem) => plain(stem, None),
             Naming::Indexed(stem) => plain(stem, Some(offset)),
@@ -35,10 +35,16 @@ impl Name {
         }
     }
 
-    /// Whether `text` is this name, in any case.
+    /// A name that the manual prints as it is.
+    pub(super) const fn plain(stem: &'static str) -> Name {
+        Name { stem, number: None, middle: "", index: None }
+    }
+
+    /// Whether `text` is this name as people write it: in any case, and with or without blanks and underscores
+    /// (GW-NOTE-43).
     pub(super) fn is(self, text: &str) -> bool {
-        let mut rest = Rest(text.as_bytes());
-        write!(rest, "{self}").is_ok() && rest.0.is_empty()
+        let mut rest = Rest(text);
+        write!(rest, "{self}").is_ok() && rest.next().is_none()
     }
 }
 
@@ -57,16 +63,30 @@ impl fmt::Display for Name {
 }
 
 /// What of a text is still to come; writing fails where something else comes.
-struct Rest<'a>(&'a [u8]);
+struct Rest<'a>(&'a str);
+
+impl Rest<'_> {
+    /// The next character that counts.
+    fn next(&mut self) -> Option<char> {
+        let mut characters = self.0.chars();
+        let next = characters.find(|character| counts(*character));
+        self.0 = characters.as_str();
+        next
+    }
+}
 
 impl Write for Rest<'_> {
     fn write_str(&mut self, expected: &str) -> fmt::Result {
-        match self.0.split_at_checked(expected.len()) {
-            Some((start, rest)) if start.eq_ignore_ascii_case(expected.as_bytes()) => {
-                self.0 = rest;
-                Ok(())
-            }
-            _ => Err(fmt::Error),
+        let is_next = |expected: char| self.next().is_some_and(|next| next.eq_ignore_ascii_case(&expected));
+        if expected.chars().filter(|expected| counts(*expected)).all(is_next) {
+            Ok(())
+        } else {
+            Err(fmt::Error)
         }
     }
+}
+
+/// Whether a character of a name tells it from others.
+fn counts(character: char) -> bool {
+    !character.is_whitespace() && !"_\\".contains(character)
 }

@@ -1,7 +1,8 @@
 //! Parameters: whose they are, what they are called, what they may be.
 
 use super::name::Name;
-use super::series::{self, SERIES, Series};
+use super::series::{self, Naming, SERIES, Series};
+use super::signal::SignalType;
 use core::fmt;
 
 /// Whose parameter it is.
@@ -29,6 +30,23 @@ pub enum Quantity {
     KbitPerSecond,
     /// A CAN-ID, which the manual writes in hexadecimal digits.
     Identifier,
+    /// Bits, which the manual writes as four hexadecimal digits.
+    Bits,
+    /// A voltage that the manual gives in V. The value is in mV.
+    Volts,
+    /// A time that the manual gives in ms, with decimals. The value is in µs.
+    FineMilliseconds,
+}
+
+impl Quantity {
+    /// How many of the value make one of the unit that the manual uses.
+    #[must_use]
+    pub const fn per_unit(self) -> i32 {
+        match self {
+            Self::Seconds | Self::Volts | Self::FineMilliseconds => 1000,
+            Self::Number | Self::Milliseconds | Self::KbitPerSecond | Self::Identifier | Self::Bits => 1,
+        }
+    }
 }
 
 /// What a value may be.
@@ -124,12 +142,26 @@ impl Parameter {
         series::find(owner, number)
     }
 
-    /// The parameter of this name, in any case.
+    /// The parameter of this name, in any case, as the lists or an example of the manual spell it (GW-NOTE-43).
     #[must_use]
     pub fn by_name(owner: Owner, name: &str) -> Option<Parameter> {
-        parameters()
-            .filter(|parameter| parameter.owner() == owner)
-            .find(|parameter| parameter.name().is_some_and(|own| own.is(name)))
+        parameters().filter(|parameter| parameter.owner() == owner).find(|parameter| parameter.has_name(name))
+    }
+
+    /// Whether the manual calls this parameter so, anywhere: as its lists spell it, as an example prints it, or a member of
+    /// a series by the name of the series (11.1; GW-NOTE-43).
+    #[must_use]
+    pub fn is_called(self, name: &str) -> bool {
+        let is_series = || match self.series.naming {
+            Naming::Indexed(stem) => Name::plain(stem).is(name),
+            _ => false,
+        };
+        self.has_name(name) || is_series()
+    }
+
+    fn has_name(self, name: &str) -> bool {
+        let mut also = self.series.also.iter();
+        self.name().is_some_and(|own| own.is(name)) || also.any(|other| Name::plain(other).is(name))
     }
 
     /// Whose parameter it is.
@@ -178,6 +210,30 @@ impl Parameter {
     #[must_use]
     pub const fn meaning(self) -> &'static str {
         self.series.meaning
+    }
+
+    /// Its type as a value of the governor, which a TPDO can carry (4.1.2; GW-PDO-05, GW-PDO-19). Our choice from the values
+    /// that it can have: only the functions that are switched on and off are bits.
+    pub(super) const fn signal_type(self) -> SignalType {
+        match (self.series.values, self.number()) {
+            (Values::Between(0, 1), 4000..) => SignalType::Bit,
+            // Channels have no sign, whatever else a governor may have there.
+            (_, 900..=999) => SignalType::U16,
+            (Values::Between(..0, _), _) => SignalType::I16,
+            (Values::Between(_, ..=0xFF), _) => SignalType::U8,
+            _ => SignalType::U16,
+        }
+    }
+
+    /// The number under which its value is kept: the governor's bit rate and the switch of its bit timing have two numbers
+    /// each (GW-NOTE-37).
+    #[must_use]
+    pub const fn main(self) -> Parameter {
+        match (self.series.owner, self.number()) {
+            (Owner::Governor, 409) => const { known(Owner::Governor, 416) },
+            (Owner::Governor, 4409) => const { known(Owner::Governor, 4416) },
+            _ => self,
+        }
     }
 
     /// The place among all parameters.

@@ -8,6 +8,8 @@ pub(super) struct Series {
     pub(super) first: u16,
     pub(super) count: u16,
     pub(super) naming: Naming,
+    /// Spellings that the manual prints elsewhere (GW-NOTE-43).
+    pub(super) also: &'static [&'static str],
     pub(super) level: Option<u8>,
     pub(super) values: Values,
     pub(super) quantity: Quantity,
@@ -44,6 +46,7 @@ const fn gateway(number: u16, name: &'static str, values: Values, meaning: &'sta
         first: number,
         count: 1,
         naming: Naming::Single(name),
+        also: &[],
         level: Some(6),
         values,
         quantity: Quantity::Number,
@@ -60,6 +63,10 @@ const fn governor(number: u16, naming: Naming, values: Values, meaning: &'static
 impl Series {
     const fn of(self, quantity: Quantity, default: i32) -> Series {
         Series { quantity, default, ..self }
+    }
+
+    const fn also(self, also: &'static [&'static str]) -> Series {
+        Series { also, ..self }
     }
 
     const fn times(self, count: u16, naming: Naming) -> Series {
@@ -100,8 +107,10 @@ const ROWS: [Series; 50] = [
         ..gateway(1800, "Level", Between(1, 7), "user level of the PC tool").of(Number, 1)
     },
     gateway(4400, "HzmCanCommDCOn", FLAG, "communication with the governor").of(Number, 1),
-    gateway(4416, "HzmCanSegmOrBaudrate", FLAG, "manual bit timing of the HEINZMANN bus"),
-    gateway(4426, "CanOpSegmOrBaudrate", FLAG, "manual bit timing of the CANopen bus"),
+    gateway(4416, "HzmCanSegmOrBaudrate", FLAG, "manual bit timing of the HEINZMANN bus")
+        .also(&["HzmCanSegmentOrBaurdate", "HzmCanSegmentOrBaudrate"]),
+    gateway(4426, "CanOpSegmOrBaudrate", FLAG, "manual bit timing of the CANopen bus")
+        .also(&["CanOpSegmentOrBaurdate", "CanOpSegmentOrBaudrate"]),
     gateway(16404, "", Between(0, 0x7FF), "identifier of a TPDO, 5 to 16")
         .of(Identifier, 0)
         .times(12, Indexed("CanOpTPDO5-16ID")),
@@ -115,8 +124,8 @@ const ROWS: [Series; 50] = [
     governor(401, Single("CanMyNodeNumber"), NODE_NUMBER, "own node number on the HEINZMANN bus")
         .of(Number, 1),
     governor(403, Single("CanCMNodeNumber"), NODE_NUMBER, "node number of the gateway").of(Number, 1),
-    // The bit rate of the governor stands in the manual under two numbers, 409 in the example and 416 in the text
-    // (GW-NOTE-37). They are known, so that a file may hold them, and nothing follows from them.
+    // The bit rate of the governor stands in the manual under two numbers, 409 in the example and 416 in the text, and
+    // so does the switch of its bit timing. Each pair is one parameter (GW-NOTE-37).
     governor(409, Single("CanBaudrate"), BIT_RATES, "bit rate of the HEINZMANN bus").of(KbitPerSecond, 250),
     governor(410, Single("CanPrescaler"), Between(0, 63), "prescaler of the HEINZMANN bus"),
     governor(
@@ -135,8 +144,10 @@ const ROWS: [Series; 50] = [
     governor(900, Naming::Some(ASSIGNMENTS), ANY_ASSIGNMENT, "assignment of a sensor")
         .times(SENSORS, Naming::Some(ASSIGNMENTS)),
     governor(4406, Single("CanCommCMOn"), FLAG, "communication with the gateway").of(Number, 1),
-    governor(4409, Single("CanSegmentOrBaudrate"), FLAG, "manual bit timing of the HEINZMANN bus"),
-    governor(4416, Single("CanSegmentOrBaudrate"), FLAG, "manual bit timing of the HEINZMANN bus"),
+    governor(4409, Single("CanSegmentOrBaudrate"), FLAG, "manual bit timing of the HEINZMANN bus")
+        .also(&["CanSegmentOrBaurdate"]),
+    governor(4416, Single("CanSegmentOrBaudrate"), FLAG, "manual bit timing of the HEINZMANN bus")
+        .also(&["CanSegmentOrBaurdate"]),
     governor(4810, Naming::Some(&[]), ANY_TYPE, "where the engine stop switch function comes from"),
     governor(4811, Naming::Some(FUNCTION_TYPES), ANY_TYPE, "where a switch function comes from")
         .times(SWITCH_FUNCTIONS, Naming::Some(FUNCTION_TYPES)),

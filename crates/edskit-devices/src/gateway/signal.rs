@@ -1,5 +1,9 @@
 //! What a word of a TPDO can carry: the parameters of the governor.
 
+use super::measured::measured_value;
+use super::name::Name;
+use super::parameter::{Owner, Parameter};
+
 /// Type of a governor parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SignalType {
@@ -59,12 +63,59 @@ pub const NAMED_SIGNALS: &[Signal] = &[
     Signal { number: 2917, name: "CurrentLoad", signal_type: SignalType::U16 },
 ];
 
-/// A governor that has [`NAMED_SIGNALS`] and nothing else.
+/// The errors and states of the governor that the manual names (ch. 3, 9.5, 9.6; GW-PDO-19).
+const NAMED_ERRORS: [(u16, &str); 4] =
+    [(3005, "ErrSetpointExtern"), (3070, "ErrCanBus"), (3071, "ErrCanComm"), (3074, "ErrCanOpen")];
+
+/// Whether a number is one of the governor's errors. That all from 3000 on are, as in the gateway, and where they end is
+/// our choice (9.1; GW-NOTE-05).
+const fn is_error(number: u16) -> bool {
+    matches!(number, 3000..=3094)
+}
+
+/// Whether a number is a state or an error of CANopen, which both units show (ch. 3, 9.5).
+pub(super) const fn is_of_canopen(number: u16) -> bool {
+    matches!(number, 12401..=12404 | 12411..=12415 | 12419..=12424)
+}
+
+/// The name that the manual gives to a parameter or a measured value of the governor (7.1, 9.5, 9.6).
+///
+/// ```
+/// use edskit_devices::gateway::signal_name;
+/// let name = |number| signal_name(number).map(|name| name.to_string());
+/// assert_eq!(name(2000).as_deref(), Some("Speed"));
+/// assert_eq!(name(12401).as_deref(), Some("CanOpStopped"));
+/// assert_eq!(name(16404).as_deref(), Some("CanOpTPDO5Assign(0)"));
+/// assert!(name(2950).is_none());
+/// ```
+#[must_use]
+pub fn signal_name(number: u16) -> Option<Name> {
+    let named = NAMED_SIGNALS.iter().map(|signal| (signal.number, signal.name)).chain(NAMED_ERRORS);
+    if let Some((_, name)) = named.into_iter().find(|(own, _)| *own == number) {
+        return Some(Name::plain(name));
+    }
+    match Parameter::find(Owner::Governor, number) {
+        Some(parameter) => parameter.name(),
+        None if is_of_canopen(number) => measured_value(number).map(Name::plain),
+        None => None,
+    }
+}
+
+/// A governor that has what the manual names, and nothing else: [`NAMED_SIGNALS`], its own parameters, and its states and
+/// errors, which are single bits (GW-PDO-19).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NamedSignals;
 
 impl Signals for NamedSignals {
     fn signal_type(&self, number: u16) -> Option<SignalType> {
-        NAMED_SIGNALS.iter().find(|signal| signal.number == number).map(|signal| signal.signal_type)
+        if let Some(signal) = NAMED_SIGNALS.iter().find(|signal| signal.number == number) {
+            return Some(signal.signal_type);
+        }
+        if is_error(number) || is_of_canopen(number) {
+            return Some(SignalType::Bit);
+        }
+        // Of the lists that go on to the next hundred, those members that the manual names.
+        let is_named = |parameter: &Parameter| parameter.name().is_some() || [810, 4810].contains(&number);
+        Parameter::find(Owner::Governor, number).filter(is_named).map(Parameter::signal_type)
     }
 }

@@ -2,7 +2,6 @@
 
 mod board;
 mod dialect;
-mod listener;
 mod participant;
 mod session;
 #[cfg(test)]
@@ -11,10 +10,11 @@ pub(crate) mod testing;
 pub(crate) use dialect::{Answer, Dialect};
 pub use participant::HubParticipant;
 
+use crate::listener::Listener;
 use crate::{BusError, slcan, socketcand};
 use board::Board;
-use listener::Listener;
-use std::net::{Ipv4Addr, SocketAddr};
+use session::Session;
+use std::net::{Ipv4Addr, SocketAddr, TcpStream};
 use std::sync::Arc;
 
 /// Where a hub listens. The default is loopback with the usual ports: 29536 for socketcand, 29537 for SLCAN.
@@ -44,6 +44,15 @@ impl Default for HubOptions {
 
 fn loopback(port: u16) -> SocketAddr {
     (Ipv4Addr::LOCALHOST, port).into()
+}
+
+/// What serves the clients of one protocol, each in a session that ends with this.
+fn sessions(board: &Arc<Board>, dialect: fn() -> Box<dyn Dialect>) -> impl FnMut(TcpStream) + Send + use<> {
+    let (board, mut sessions) = (Arc::clone(board), Vec::new());
+    move |stream| {
+        sessions.retain(|session: &Session| !session.is_over());
+        sessions.extend(Session::start(stream, &board, dialect()));
+    }
 }
 
 /// A bus that tools attach to over TCP, with socketcand or SLCAN, and this process with [`Hub::attach`]. Every frame of one
@@ -88,13 +97,12 @@ impl Hub {
         let board = Arc::new(Board::default());
         let mut hub = Self { board: Arc::clone(&board), socketcand: None, slcan: None };
         if let Some(address) = options.socketcand {
-            hub.socketcand = Some(Listener::start(address, "socketcand", &board, || {
-                Box::new(socketcand::Server::default())
-            })?);
+            let dialect = || Box::new(socketcand::Server::default()) as Box<dyn Dialect>;
+            hub.socketcand = Some(Listener::start(address, "socketcand", sessions(&board, dialect))?);
         }
         if let Some(address) = options.slcan {
-            let listener = Listener::start(address, "SLCAN", &board, || Box::new(slcan::Server::default()))?;
-            hub.slcan = Some(listener);
+            let dialect = || Box::new(slcan::Server::default()) as Box<dyn Dialect>;
+            hub.slcan = Some(Listener::start(address, "SLCAN", sessions(&board, dialect))?);
         }
         Ok(hub)
     }

@@ -17,7 +17,7 @@ impl Transfer {
 
     pub(super) fn block_download_begun(&mut self, answer: &Message) -> bool {
         if answer[0] & STEP != 0xA0 || !self.is_for_us(answer) {
-            return false;
+            return self.switches_to_segments(answer);
         }
         self.uses_crc = answer[0] & CRC != 0;
         self.begin_block(answer[4]);
@@ -40,8 +40,8 @@ impl Transfer {
         (self.data.len() - self.confirmed).div_ceil(SEGMENT).max(1)
     }
 
-    /// The next segment of a block that is being sent.
-    pub(super) fn next_segment(&mut self) -> Option<Message> {
+    /// The next segment of a block that is being sent, and which one of the block it is.
+    pub(super) fn next_segment(&self) -> Option<(Message, u8)> {
         let Phase::BlockDownload { sent, size } = self.phase else { return None };
         let left = self.segments_left();
         if sent >= size || usize::from(sent) >= left {
@@ -51,17 +51,22 @@ impl Transfer {
         let end = self.data.len().min(start + SEGMENT);
         let sent = sent + 1;
         let is_last = usize::from(sent) == left;
-        let message = segment(sent | if is_last { LAST_SEGMENT } else { 0 }, &self.data[start..end]);
-        self.phase = Phase::BlockDownload { sent, size };
-        Some(message)
+        Some((segment(sent | if is_last { LAST_SEGMENT } else { 0 }, &self.data[start..end]), sent))
     }
 
-    /// The server has taken segments up to a number; those behind it are sent again.
+    /// The server has taken segments up to a number; those behind it are sent again, as the first ones of the next block.
+    /// CiA 301 v4.2, 7.2.4.3 has it say so when the block is out. Here it counts at any time: there are servers that say at
+    /// once which segment they miss, and take nothing more of that block.
     pub(super) fn block_confirmed(&mut self, answer: &Message, sent: u8, size: u8) -> bool {
         let [command, sequence, next_size, ..] = *answer;
         let left = self.segments_left();
         let is_out = sent >= size || usize::from(sent) >= left;
-        if command & STEP != 0xA2 || !is_out {
+        if command & STEP != 0xA2 {
+            return false;
+        }
+        // That of the block before, repeated, says nothing of this one.
+        let is_repeated = Some(*answer) == self.last && sequence >= sent;
+        if !is_out && (sent == 0 || sequence > sent || is_repeated) {
             return false;
         }
         if sequence > sent {
@@ -94,7 +99,7 @@ impl Transfer {
         if answer[0] & STEP != 0xA1 {
             return false;
         }
-        self.end(Ok(Vec::new()));
+        self.done();
         true
     }
 }

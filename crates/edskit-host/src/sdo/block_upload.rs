@@ -20,7 +20,7 @@ impl Transfer {
     pub(super) fn block_upload_begun(&mut self, answer: &Message) -> bool {
         let command = answer[0];
         if command & SERVICE != 0xC0 || command & 1 != 0 || !self.is_for_us(answer) {
-            return false;
+            return self.switches_to_segments(answer);
         }
         self.uses_crc = command & CRC != 0;
         self.announced = (command & LENGTH != 0).then(|| number_of(answer));
@@ -61,7 +61,7 @@ impl Transfer {
 
     pub(super) fn block_upload_ends(&mut self, answer: &Message) -> bool {
         let [command, low, high, ..] = *answer;
-        if command & (SERVICE | 3) != 0xC1 || Some(*answer) == self.last {
+        if command & (SERVICE | 3) != 0xC1 {
             return false;
         }
         let unused = usize::from(command >> 2 & 7);

@@ -1,6 +1,6 @@
 //! Transfers over a bus, from beginning to end.
 
-use super::{SdoChannel, SdoError, SdoMode, SdoOptions, Transfer};
+use super::{SdoChannel, SdoError, SdoMode, SdoOptions, SdoValue, Transfer};
 use crate::{Bus, SendError};
 use edskit_runtime::{Instant, Microseconds};
 use edskit_types::{Index, NodeId, SubIndex};
@@ -50,7 +50,7 @@ impl SdoClient {
         self
     }
 
-    /// Reads an entry: its bytes as they come, low byte first for numbers.
+    /// Reads an entry: its bytes as they come, low byte first for numbers, and whether the server has said their number.
     ///
     /// # Errors
     ///
@@ -60,7 +60,7 @@ impl SdoClient {
         bus: &mut (impl Bus + ?Sized),
         index: Index,
         sub_index: SubIndex,
-    ) -> Result<Vec<u8>, SdoError> {
+    ) -> Result<SdoValue, SdoError> {
         let transfer = Transfer::read(self.channel, index, sub_index, self.options, bus.now());
         drive(transfer, bus)
     }
@@ -82,31 +82,34 @@ impl SdoClient {
     }
 }
 
-fn drive(mut transfer: Transfer, bus: &mut (impl Bus + ?Sized)) -> Result<Vec<u8>, SdoError> {
+fn drive(mut transfer: Transfer, bus: &mut (impl Bus + ?Sized)) -> Result<SdoValue, SdoError> {
     let start = bus.now();
-    let mut waiting = None;
     loop {
         let mut pause = Instant::NEVER;
-        while let Some(frame) = waiting.take().or_else(|| transfer.transmit(bus.now())) {
-            match bus.send(&frame) {
-                Ok(()) => {}
-                Err(SendError::Full) if !transfer.has_ended() => {
-                    waiting = Some(frame);
-                    pause = bus.now() + PAUSE;
-                    break;
-                }
-                // The result is known; nobody needs to hear of a last word that cannot be said.
-                Err(_) if transfer.has_ended() => {}
-                Err(error) => return Err(error.into()),
+        // One frame at a time: the server may have something to say before a block is out.
+        let is_sent = match transfer.pending().map(|frame| bus.send(&frame)) {
+            None => false,
+            Some(Err(SendError::Full)) if !transfer.has_ended() => {
+                pause = bus.now() + PAUSE;
+                false
             }
-        }
-        if let Some(result) = transfer.result() {
+            // Once the result is known, nobody needs to hear of a last word that cannot be said.
+            Some(Err(error)) if !transfer.has_ended() => return Err(error.into()),
+            Some(_) => {
+                transfer.sent(bus.now());
+                true
+            }
+        };
+        if transfer.pending().is_none()
+            && let Some(result) = transfer.result()
+        {
             return result;
         }
         match bus.receive()? {
             // What was there before the first request cannot be an answer.
             Some(received) if received.time < start => {}
             Some(received) => transfer.receive(bus.now(), &received.frame),
+            None if is_sent => {}
             None => bus.wait(transfer.next_deadline().min(pause))?,
         }
         transfer.poll(bus.now());

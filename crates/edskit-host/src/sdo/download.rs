@@ -40,7 +40,7 @@ impl Transfer {
         }
         let is_expedited = self.confirmed > 0;
         if is_expedited {
-            self.end(Ok(Vec::new()));
+            self.done();
         } else {
             self.send_segment(0);
         }
@@ -67,7 +67,7 @@ impl Transfer {
         }
         self.confirmed += length;
         if self.confirmed == self.data.len() {
-            self.end(Ok(Vec::new()));
+            self.done();
         } else {
             self.send_segment(toggle ^ TOGGLE);
         }

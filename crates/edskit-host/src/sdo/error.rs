@@ -1,6 +1,8 @@
 //! Why a transfer fails.
 
+use super::Heard;
 use crate::{BusError, SendError};
+use edskit_runtime::Frame;
 use edskit_types::AbortCode;
 use thiserror::Error;
 
@@ -12,10 +14,10 @@ pub enum SdoError {
     #[error("the server has refused it: {0}")]
     Aborted(AbortCode),
     /// The server has not answered in time; it was told so with the abort code 05040000h.
-    #[error("no answer in time{}", on_stray(.stray))]
+    #[error("no answer in time{}", on_untaken(.heard.untaken.as_ref()))]
     TimedOut {
-        /// The last message on the channel that could not be the awaited answer, where one came.
-        stray: Option<[u8; 8]>,
+        /// What was heard meanwhile.
+        heard: Heard,
     },
     /// The server has answered against the protocol; it was told so with this abort code.
     #[error("{reason} (ended with {code})")]
@@ -39,12 +41,15 @@ pub enum SdoError {
     Send(#[from] SendError),
 }
 
-fn on_stray(stray: &Option<[u8; 8]>) -> String {
-    match stray {
-        None => String::new(),
-        Some(message) => {
-            let bytes: Vec<String> = message.iter().map(|byte| format!("{byte:02X}")).collect();
-            format!("; the last message, {}, is the answer to something else", bytes.join(" "))
-        }
+fn on_untaken(untaken: Option<&Frame>) -> String {
+    let Some(frame) = untaken else { return String::new() };
+    let bytes: Vec<String> = frame.data().iter().map(|byte| format!("{byte:02X}")).collect();
+    let bytes = bytes.join(" ");
+    match frame.data().len() {
+        _ if frame.is_remote() => "; what came instead is a remote frame".to_owned(),
+        8 => format!("; the last message, {bytes}, is not the answer to this request"),
+        0 => "; what came instead is a frame without data, and an SDO message has 8 bytes".to_owned(),
+        1 => format!("; what came instead, {bytes}, has 1 byte, and an SDO message has 8"),
+        length => format!("; what came instead, {bytes}, has {length} bytes, and an SDO message has 8"),
     }
 }

@@ -8,15 +8,20 @@ mod block_upload;
 mod client;
 mod download;
 mod error;
+mod fallback;
+mod heard;
 mod message;
 mod options;
 mod transfer;
 mod upload;
+mod value;
 
 pub use client::SdoClient;
 pub use error::SdoError;
+pub use heard::Heard;
 pub use options::{SdoChannel, SdoMode, SdoOptions};
 pub use transfer::Transfer;
+pub use value::SdoValue;
 
 /// How many data bytes a segment has.
 const SEGMENT: usize = 7;

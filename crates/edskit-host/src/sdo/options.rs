@@ -33,13 +33,21 @@ impl SdoChannel {
         };
         Self { request: can_id(SdoMessage::Request), response: can_id(SdoMessage::Response) }
     }
+
+    /// The node whose default channel this is; `None` for any other channel.
+    #[must_use]
+    pub fn node(self) -> Option<NodeId> {
+        let node = NodeId::new((self.response.raw() & 0x7F) as u8).ok()?;
+        (self == Self::of_node(node)).then_some(node)
+    }
 }
 
 /// Which of the three kinds of transfer is used.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum SdoMode {
-    /// Expedited up to four bytes, in blocks above 256 bytes, in segments in between. Where the server refuses blocks, in
-    /// segments after all.
+    /// Expedited up to four bytes, in blocks above 256 bytes, in segments in between. Where the server shows in any way
+    /// that it does not do blocks (it refuses them, is silent, answers as if they had not been asked for, or gets them
+    /// wrong), in segments after all: a new transfer, which may wait once more for as long as the time-out.
     #[default]
     Automatic,
     /// In one message: 1 to 4 bytes.

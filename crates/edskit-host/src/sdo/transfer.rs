@@ -1,7 +1,7 @@
 //! One transfer, without a bus and without a clock.
 
-use super::message::{ABORT, Message, SERVICE, message, number_of, place_of};
-use super::{SdoChannel, SdoError, SdoMode, SdoOptions};
+use super::message::{ABORT, LAST_SEGMENT, Message, SERVICE, message, number_of, place_of};
+use super::{Heard, SdoChannel, SdoError, SdoMode, SdoOptions, SdoValue};
 use edskit_runtime::{Frame, Instant};
 use edskit_types::{AbortCode, Index, SubIndex};
 use std::collections::VecDeque;
@@ -18,7 +18,8 @@ const MOST_REPETITIONS: u8 = 8;
 ///
 /// Frames that can be the answer to something else are passed over and do not count against the time-out: those with
 /// another index or sub-index, those that repeat what was received before, and those of another service. Answers that
-/// break the protocol end the transfer, and the server is told so by an abort message.
+/// break the protocol end the transfer, and the server is told so by an abort message; an abort is never answered. What
+/// was heard and not taken is in the error ([`Heard`]).
 ///
 /// ```
 /// use edskit_host::sdo::{SdoChannel, SdoOptions, Transfer};
@@ -55,10 +56,15 @@ pub struct Transfer {
     /// The answer that began the transfer, and the last one that was taken.
     pub(super) first: Option<Message>,
     pub(super) last: Option<Message>,
-    stray: Option<Message>,
+    /// How many of the last bytes that were read may be filling.
+    pub(super) unsure: usize,
+    /// Whether the server was told of an end which was none, and the code with which it may have answered that.
+    pub(super) may_be_echoed: bool,
+    pub(super) echo: Option<AbortCode>,
+    pub(super) heard: Heard,
     out: VecDeque<Message>,
     deadline: Instant,
-    result: Option<Result<Vec<u8>, SdoError>>,
+    result: Option<Result<SdoValue, SdoError>>,
 }
 
 /// What a transfer waits for, or does.
@@ -89,6 +95,14 @@ pub(super) enum Phase {
     },
     BlockDownloadEnd,
     Ended,
+}
+
+impl Phase {
+    /// Whether the server has answered nothing yet.
+    pub(super) fn is_begin(self) -> bool {
+        use Phase::{BlockDownloadBegin, BlockUploadBegin, DownloadBegin, UploadBegin};
+        matches!(self, UploadBegin | DownloadBegin | BlockUploadBegin | BlockDownloadBegin)
+    }
 }
 
 impl Transfer {
@@ -146,7 +160,10 @@ impl Transfer {
             repetitions: 0,
             first: None,
             last: None,
-            stray: None,
+            unsure: 0,
+            may_be_echoed: false,
+            echo: None,
+            heard: Heard::default(),
             out: VecDeque::new(),
             deadline: now + options.time_out,
             result: None,
@@ -155,15 +172,26 @@ impl Transfer {
 
     /// Takes a frame from the bus; any frame may be handed in.
     pub fn receive(&mut self, now: Instant, frame: &Frame) {
-        let Ok(answer) = Message::try_from(frame.data()) else { return };
-        if frame.can_id() != self.channel.response || self.has_ended() {
+        if self.has_ended() {
             return;
         }
-        if answer[0] == ABORT {
-            return self.aborted(&answer);
+        if frame.can_id() != self.channel.response {
+            return self.heard.elsewhere(self.channel, frame);
+        }
+        let Ok(answer) = Message::try_from(frame.data()) else {
+            self.heard.untaken = Some(*frame);
+            return;
+        };
+        if self.phase == Phase::BlockUploadEnd && Some(answer) == self.last {
+            // The last segment, repeated: it is no command.
+            return;
         }
         // What has not been asked yet cannot have been answered.
-        if !self.out.is_empty() {
+        let is_asked = self.out.is_empty();
+        if self.is_abort(&answer) && (is_asked || !self.phase.is_begin()) {
+            return self.aborted(&answer, frame);
+        }
+        if !is_asked {
             return;
         }
         let is_taken = match self.phase {
@@ -187,29 +215,47 @@ impl Transfer {
         if is_taken {
             self.last = Some(answer);
             self.deadline = now + self.options.time_out;
+            self.heard.answers += 1;
         } else {
-            self.stray = Some(answer);
+            self.heard.untaken = Some(*frame);
         }
     }
 
     /// Ends the transfer where the server has been silent for too long.
     pub fn poll(&mut self, now: Instant) {
-        if !self.has_ended() && now >= self.deadline {
-            let stray = self.stray;
-            self.tell(AbortCode::TIME_OUT);
-            self.end(Err(SdoError::TimedOut { stray }));
+        if self.has_ended() || now < self.deadline {
+            return;
         }
+        match self.echo.filter(|_| self.phase.is_begin()) {
+            Some(code) => self.end(Err(SdoError::Aborted(code))),
+            None => self.fail(SdoError::TimedOut { heard: self.heard }),
+        }
+        self.deadline = now + self.options.time_out;
     }
 
     /// The next frame to be sent; `None` where there is none for now. The time-out runs from the frame that was taken
     /// last.
     pub fn transmit(&mut self, now: Instant) -> Option<Frame> {
-        let message = match self.out.pop_front() {
-            Some(message) => message,
-            None => self.next_segment()?,
-        };
-        self.deadline = now + self.options.time_out;
+        let frame = self.pending()?;
+        self.sent(now);
+        Some(frame)
+    }
+
+    /// The frame that `transmit` would give.
+    pub(super) fn pending(&self) -> Option<Frame> {
+        let message =
+            self.out.front().copied().or_else(|| self.next_segment().map(|(message, _)| message))?;
         Some(Frame::new(self.channel.request, &message))
+    }
+
+    /// The pending frame is on its way.
+    pub(super) fn sent(&mut self, now: Instant) {
+        if self.out.pop_front().is_none()
+            && let (Phase::BlockDownload { size, .. }, Some((_, sent))) = (self.phase, self.next_segment())
+        {
+            self.phase = Phase::BlockDownload { sent, size };
+        }
+        self.deadline = now + self.options.time_out;
     }
 
     /// When [`poll`](Self::poll) has something to do, unless a frame comes before; [`Instant::NEVER`] once the transfer
@@ -225,9 +271,9 @@ impl Transfer {
         self.phase == Phase::Ended
     }
 
-    /// What came of the transfer: the bytes that were read, none for what was written. `None` where it has not ended, or
+    /// What came of the transfer: what was read, without any bytes for what was written. `None` where it has not ended, or
     /// where the result has been taken already.
-    pub fn result(&mut self) -> Option<Result<Vec<u8>, SdoError>> {
+    pub fn result(&mut self) -> Option<Result<SdoValue, SdoError>> {
         self.result.take()
     }
 
@@ -245,49 +291,66 @@ impl Transfer {
         place_of(answer) == (self.index, self.sub_index)
     }
 
-    fn aborted(&mut self, answer: &Message) {
+    /// Command specifier 4, whatever the reserved bits are. With such bits it could also be the last segment of a block,
+    /// whose first byte is a number; then it is an abort if that is not the next number and all else is that of one.
+    fn is_abort(&self, answer: &Message) -> bool {
+        let has_its_place = self.is_for_us(answer);
+        let is_meant = match self.phase {
+            Phase::BlockUpload { sequence, .. } => {
+                let is_next = answer[0] & !LAST_SEGMENT == sequence + 1;
+                !is_next && has_its_place && AbortCode(number_of(answer)).meaning().is_some()
+            }
+            Phase::BlockUploadEnd => has_its_place,
+            _ => true,
+        };
+        answer[0] == ABORT || answer[0] & SERVICE == ABORT && is_meant
+    }
+
+    fn aborted(&mut self, answer: &Message, frame: &Frame) {
         // Some servers leave the place out.
         let (index, sub_index) = place_of(answer);
-        if !self.is_for_us(answer) && (index, sub_index) != (Index(0), SubIndex(0)) {
-            self.stray = Some(*answer);
+        let is_for_other = !self.is_for_us(answer) && (index, sub_index) != (Index(0), SubIndex(0));
+        let code = AbortCode(number_of(answer));
+        if is_for_other || self.is_echo(code) {
+            self.heard.untaken = Some(*frame);
             return;
         }
-        let code = AbortCode(number_of(answer));
-        let is_automatic = self.options.mode == SdoMode::Automatic;
-        match self.phase {
-            Phase::BlockUploadBegin if is_automatic && may_mean_blocks(code) => {
-                self.options.mode = SdoMode::Segmented;
-                self.begin_upload();
-            }
-            Phase::BlockDownloadBegin if is_automatic && may_mean_blocks(code) => {
-                self.options.mode = SdoMode::Segmented;
-                self.begin_write();
-            }
-            _ => self.end(Err(SdoError::Aborted(code))),
-        }
+        self.fail(SdoError::Aborted(code));
     }
 
-    /// Ends the transfer because of what the server answers.
+    /// What the server answers is against the protocol.
     pub(super) fn give_up(&mut self, code: AbortCode, reason: &'static str) {
-        self.tell(code);
-        self.end(Err(SdoError::GivenUp { code, reason }));
+        self.fail(SdoError::GivenUp { code, reason });
     }
 
-    /// Tells the server that the transfer is over. What was to be asked has no meaning any more.
+    /// Tells the server that the transfer is over.
     pub(super) fn tell(&mut self, code: AbortCode) {
-        self.out.clear();
+        self.clear();
         self.ask_for_place(ABORT, code.0.to_le_bytes());
     }
 
-    pub(super) fn end(&mut self, result: Result<Vec<u8>, SdoError>) {
+    /// What was to be asked has no meaning any more.
+    pub(super) fn clear(&mut self) {
+        self.out.clear();
+    }
+
+    pub(super) fn end(&mut self, result: Result<SdoValue, SdoError>) {
         self.phase = Phase::Ended;
         self.result = Some(result);
     }
 
     /// Everything has been read, and the transfer is over; whether the length is right.
     pub(super) fn end_of_reading(&mut self) -> bool {
+        let announced = self.announced.map(|announced| announced as usize);
+        if let Some(announced) = announced {
+            // What the last segment leaves unsaid, the first answer has said.
+            let filling = self.data.len().saturating_sub(announced);
+            if filling <= std::mem::take(&mut self.unsure) {
+                self.data.truncate(announced);
+            }
+        }
         let length = self.data.len();
-        match self.announced.map(|announced| announced as usize) {
+        match announced {
             _ if length > self.options.most_bytes => {
                 self.give_up(AbortCode::OUT_OF_MEMORY, "the value is longer than the limit of this client");
             }
@@ -298,8 +361,8 @@ impl Transfer {
                 self.give_up(AbortCode::LENGTH_TOO_HIGH, "the server has sent more bytes than it announced");
             }
             _ => {
-                let data = std::mem::take(&mut self.data);
-                self.end(Ok(data));
+                let (bytes, unsure) = (std::mem::take(&mut self.data), self.unsure);
+                self.end(Ok(SdoValue { bytes, unsure }));
                 return true;
             }
         }
@@ -320,21 +383,10 @@ impl Transfer {
     /// Counts blocks without progress, and says whether there may be more of them.
     pub(super) fn goes_on(&mut self, has_progress: bool) -> bool {
         self.repetitions = if has_progress { 0 } else { self.repetitions + 1 };
-        if self.repetitions > MOST_REPETITIONS {
+        let goes_on = self.repetitions <= MOST_REPETITIONS;
+        if !goes_on {
             self.give_up(AbortCode::INVALID_SEQUENCE_NUMBER, "the same block was repeated again and again");
         }
-        !self.has_ended()
+        goes_on
     }
-}
-
-/// Whether a server may mean by this code that it knows no blocks, and not that the entry cannot be accessed.
-fn may_mean_blocks(code: AbortCode) -> bool {
-    matches!(
-        code,
-        AbortCode::UNKNOWN_COMMAND
-            | AbortCode::INVALID_BLOCK_SIZE
-            | AbortCode::OUT_OF_MEMORY
-            | AbortCode::UNSUPPORTED_ACCESS
-            | AbortCode::GENERAL_ERROR
-    )
 }

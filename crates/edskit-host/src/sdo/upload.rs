@@ -22,6 +22,7 @@ impl Transfer {
         let (is_expedited, says_length) = (command & 2 != 0, command & 1 != 0);
         if is_expedited {
             let unused = if says_length { usize::from(command >> 2 & 3) } else { 0 };
+            self.unsure = if says_length { 0 } else { EXPEDITED - 1 };
             if self.take_in(&data[..EXPEDITED - unused], 0) {
                 self.end_of_reading();
             }
@@ -59,8 +60,10 @@ impl Transfer {
             self.give_up(AbortCode::TOGGLE_BIT, "the toggle bit of a segment is wrong");
         } else if length == 0 && !is_last {
             self.give_up(AbortCode::LENGTH_MISMATCH, "a segment is empty and not the last one");
-        } else if self.take_in(&data[..length], 0) {
+        } else if self.take_in(&data[..length], if is_last { SEGMENT - 1 } else { 0 }) {
             if is_last {
+                // A full segment is also one whose length is not said.
+                self.unsure = if length == SEGMENT { SEGMENT - 1 } else { 0 };
                 self.end_of_reading();
             } else {
                 self.ask_for_segment(toggle ^ TOGGLE);

@@ -208,7 +208,8 @@ fn a_port_that_is_taken_is_named() {
     assert!(matches!(error, BusError::Listen { protocol: "SLCAN", .. }));
     let text = error.to_string();
     assert!(
-        text.starts_with("cannot listen on 127.0.0.1:") && text.contains("perhaps a hub runs there"),
+        text.starts_with("cannot listen on 127.0.0.1:")
+            && text.contains("perhaps a hub or a device runs there"),
         "{text}"
     );
 }

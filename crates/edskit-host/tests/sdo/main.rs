@@ -3,6 +3,7 @@
 mod hostile;
 mod lossy;
 mod node;
+mod servers;
 
 use edskit_host::sdo::{SdoClient, SdoError, SdoMode};
 use edskit_types::{AbortCode, Index, NodeId, SubIndex};
@@ -82,7 +83,9 @@ fn a_node_that_is_away_is_waited_for_one_second() {
     let mut bus = Served::new();
     let other = SdoClient::new(NodeId::new(9).unwrap());
     let error = other.read(&mut bus, DOMAIN, SubIndex(0)).unwrap_err();
-    assert!(matches!(error, SdoError::TimedOut { stray: None }));
+    let SdoError::TimedOut { heard } = error else { panic!("{error}") };
+    assert!(heard.answers == 0 && heard.untaken.is_none() && !heard.is_there, "{heard:?}");
+    assert!(heard.has_others, "the node that is there has booted up");
     let waited = bus.milliseconds();
     assert!((1_000..1_010).contains(&waited), "{waited}");
 }

@@ -18,13 +18,6 @@ impl Section<'_> {
     }
 }
 
-impl Object<'_> {
-    /// Whether the names of its sub-objects count in decimal.
-    pub fn has_decimal_sub_indices(self) -> bool {
-        self.sub_objects().any(|sub| sub.section().has_decimal_sub_index())
-    }
-}
-
 /// Gives sub-objects with decimal names the sub-index that was meant; whether there are any.
 pub(super) fn read(sheet: &mut Datasheet) -> bool {
     let mut found: Vec<(u32, SectionKind)> = Vec::new();
@@ -86,10 +79,12 @@ fn decimal_names(object: Object<'_>, beyond: &[(Index, u8, u32)]) -> Vec<(u32, S
 /// some that only the decimal names have.
 fn counts_to(object: Object<'_>, highest: u8) -> bool {
     let Some(sub0) = object.sub_object(SubIndex(0)) else { return false };
-    let said = sub0.value().and_then(|field| field.entry.unsigned::<u8>().known());
     let index = object.index();
     let is_mapping = index.is_rpdo_mapping() || index.is_tpdo_mapping();
-    said.is_some_and(|said| said == highest || (is_mapping && (0xA..=highest.min(0xF)).contains(&said)))
+    let fits = |said: u8| said == highest || (is_mapping && (0xA..=highest.min(0xF)).contains(&said));
+    // A count that changes while the device runs has its largest value as a limit.
+    let said = [sub0.value(), sub0.high_limit()].into_iter().flatten();
+    said.filter_map(|field| field.entry.unsigned::<u8>().known()).any(fits)
 }
 
 /// The sections named like a sub-object with a decimal number from 100 to 254.
@@ -134,7 +129,14 @@ mod tests {
         for last in [10, 11, 20, 99, 100, 120, 254] {
             let sheet = sheet("6401", &last.to_string(), decimal(last));
             assert_eq!(sub_indices(&sheet), (0..=last).collect::<Vec<_>>());
-            assert!(sheet.objects().next().unwrap().has_decimal_sub_indices());
+            assert!(
+                sheet
+                    .objects()
+                    .next()
+                    .unwrap()
+                    .sub_objects()
+                    .any(|sub| sub.section().has_decimal_sub_index())
+            );
             let value = sheet.dictionary_entry(Index(0x6401), SubIndex(last)).unwrap().value().unwrap();
             let written = i128::from_str_radix(&last.to_string(), 16).unwrap();
             assert_eq!(value.integer(edskit_types::DataType::Unsigned16, None), Ok(written));

@@ -155,6 +155,11 @@ impl Datasheet {
     pub fn commissioned_node_id(&self) -> Option<NodeId> {
         NodeId::new(self.commissioning()?.node_id()?.known()?).ok()
     }
+
+    /// The bit rate that `[DeviceComissioning]` gives the device, in a DCF; `None` where it names none of CANopen.
+    pub fn commissioned_bitrate(&self) -> Option<Bitrate> {
+        Bitrate::from_kbit_per_s(self.commissioning()?.baudrate()?.known()?.into())
+    }
 }
 
 impl<'a> Commissioning<'a> {

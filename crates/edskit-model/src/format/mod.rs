@@ -19,7 +19,7 @@ mod value;
 
 use crate::Datasheet;
 use crate::datasheet::Section;
-use crate::document::{Document, Line, LineKind, UTF8_BOM};
+use crate::document::{Document, Line, LineKind, UTF8_BOM, is_merge_marker};
 use layout::{Block, Layout, Lines};
 
 /// The canonical text of a file.
@@ -30,9 +30,31 @@ use layout::{Block, Layout, Lines};
 /// assert_eq!(format(&sheet), b"[1000]\nParameterName=Type\nDataType=0x0007\nAccessType=ro\n");
 /// ```
 pub fn format(sheet: &Datasheet) -> Vec<u8> {
+    try_format(sheet).unwrap_or_else(|_| sheet.document().to_bytes().to_vec())
+}
+
+/// Why a file has no canonical text.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Unformattable {
+    /// The marker of a merge conflict stands in this line, counted from 0: two texts stand in the place of one.
+    Conflict(usize),
+    /// It is larger than what is split into lines; see [`Document::is_complete`].
+    TooLarge,
+    /// A byte order mark in the midst of the file would come to its start.
+    ByteOrderMark,
+}
+
+/// The canonical text of a file, or why it has none.
+///
+/// # Errors
+/// [`Unformattable`] says what has to be mended before.
+pub fn try_format(sheet: &Datasheet) -> Result<Vec<u8>, Unformattable> {
     let document = sheet.document();
-    if is_left_alone(document) {
-        return document.to_bytes().to_vec();
+    if !document.is_complete() {
+        return Err(Unformattable::TooLarge);
+    }
+    if let Some(line) = document.lines().iter().position(|line| is_conflict_marker(document, line)) {
+        return Err(Unformattable::Conflict(line));
     }
     let layout = Layout::of(sheet);
     let order = order::sections(sheet, &layout.blocks);
@@ -72,17 +94,11 @@ pub fn format(sheet: &Datasheet) -> Vec<u8> {
         writer.paragraph(paragraph);
     }
     // A mark that was not the first thing in the file must not become it.
-    if writer.text.starts_with(UTF8_BOM) { document.to_bytes().to_vec() } else { writer.text }
+    if writer.text.starts_with(UTF8_BOM) { Err(Unformattable::ByteOrderMark) } else { Ok(writer.text) }
 }
 
-/// Whether a file is not understood well enough to be touched: it holds a merge conflict, or more than was lexed.
-fn is_left_alone(document: &Document) -> bool {
-    let source = document.to_bytes();
-    let is_marker = |line: &Line| {
-        let text = line.span().slice(source);
-        line.kind() == LineKind::Other && (text.starts_with(b"<<<<<<<") || text.starts_with(b">>>>>>>"))
-    };
-    !document.is_complete() || document.lines().iter().any(is_marker)
+fn is_conflict_marker(document: &Document, line: &Line) -> bool {
+    line.kind() == LineKind::Other && is_merge_marker(document.slice(line.span()))
 }
 
 /// Puts the text together.

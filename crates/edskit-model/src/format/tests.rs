@@ -245,8 +245,14 @@ fn text_before_the_first_section_is_copied() {
 
 #[test]
 fn a_merge_conflict_is_not_touched() {
-    let text = "[2000]\nx = 1\n<<<<<<< HEAD\n=======\n>>>>>>> other\n[1000]";
-    assert_eq!(formatted(text), text);
+    for text in [
+        "[2000]\nx = 1\n<<<<<<< HEAD\n=======\n>>>>>>> other\n[1000]",
+        "[2000]\nx = 1\n=======\n[1000]",
+        "[2000]\nx = 1\n||||||| base\n[1000]",
+    ] {
+        assert_eq!(formatted(text), text);
+        assert_eq!(try_format(&Datasheet::parse(text.as_bytes())), Err(Unformattable::Conflict(2)));
+    }
     let text = "[2000]\nx = 1\n  <<<<<<< a=b\n";
     assert_eq!(formatted(text), text);
 }

@@ -83,8 +83,14 @@ impl<'a> Objects<'a> {
 
     /// Gives the entry at `index` and `sub_index` a value, where it exists and can change.
     pub fn set_value<T: Value>(&mut self, index: Index, sub_index: u8, value: T) {
-        if let Ok(position) = self.table.find(index, SubIndex(sub_index)) {
-            value.to_bytes(self.bytes_mut(position));
+        value.to_bytes(self.bytes_mut_at(index, sub_index));
+    }
+
+    #[inline(never)]
+    fn bytes_mut_at(&mut self, index: Index, sub_index: u8) -> &mut [u8] {
+        match self.table.find(index, SubIndex(sub_index)) {
+            Ok(position) => self.bytes_mut(position),
+            Err(_) => &mut [],
         }
     }
 
@@ -102,7 +108,7 @@ impl<'a> Objects<'a> {
         self.table.entry(position).map_or(&mut [], |entry| self.bytes_of(entry))
     }
 
-    fn bytes_of(&mut self, entry: &Entry) -> &mut [u8] {
+    pub(crate) fn bytes_of(&mut self, entry: &Entry) -> &mut [u8] {
         if !entry.flags.has(Flags::VARIABLE) {
             return &mut [];
         }
@@ -193,24 +199,51 @@ impl<'a> Objects<'a> {
     }
 
     /// Gives all entries that `is_chosen` their values of power-on, for this node-ID.
-    pub(crate) fn restore(&mut self, node_id: Option<NodeId>, is_chosen: impl Fn(&Entry) -> bool) {
+    pub(crate) fn restore(&mut self, node_id: Option<NodeId>, is_chosen: impl Fn(Index) -> bool) {
         for (position, entry) in self.table.all() {
-            if !entry.flags.has(Flags::VARIABLE) || !is_chosen(entry) {
-                continue;
-            }
-            let start = usize::from(entry.offset);
-            let whole = start..start + usize::from(entry.size) + if entry.has_length() { 2 } else { 0 };
-            if let (Some(value), Some(default)) =
-                (self.values.get_mut(whole.clone()), self.table.defaults.get(whole))
-            {
-                copy(value, default);
-            }
-            if entry.flags.has(Flags::NODE_RELATIVE) {
-                let offset = u64::from_bytes(self.bytes(position));
-                let own = node_id.map_or(0, |node_id| u64::from(node_id.get()));
-                offset.wrapping_add(own).to_bytes(self.bytes_mut(position));
+            if entry.flags.has(Flags::VARIABLE) && is_chosen(entry.index) {
+                self.restore_entry(position, entry, node_id);
             }
         }
+    }
+
+    /// Gives an entry that can change its value of power-on.
+    pub(crate) fn restore_entry(&mut self, position: Position, entry: &Entry, node_id: Option<NodeId>) {
+        let start = usize::from(entry.offset);
+        let whole = start..start + usize::from(entry.size) + if entry.has_length() { 2 } else { 0 };
+        if let (Some(value), Some(default)) =
+            (self.values.get_mut(whole.clone()), self.table.defaults.get(whole))
+        {
+            copy(value, default);
+        }
+        if entry.flags.has(Flags::NODE_RELATIVE) {
+            self.add_node_id(position, node_id);
+        }
+    }
+
+    /// Adds the node-ID to a value that is an offset to it.
+    pub(crate) fn add_node_id(&mut self, position: Position, node_id: Option<NodeId>) {
+        let offset = u64::from_bytes(self.bytes(position));
+        let own = node_id.map_or(0, |node_id| u64::from(node_id.get()));
+        offset.wrapping_add(own).to_bytes(self.bytes_mut(position));
+    }
+
+    /// The default of an entry that can change, where its value is that default for this node-ID and follows the node-ID.
+    pub(crate) fn node_relative(
+        &self,
+        position: Position,
+        entry: &Entry,
+        node_id: Option<NodeId>,
+    ) -> Option<&[u8]> {
+        if !entry.flags.has(Flags::NODE_RELATIVE) {
+            return None;
+        }
+        let default = self.table.defaults.get(self.place(entry))?;
+        let own = node_id.map_or(0, |node_id| u64::from(node_id.get()));
+        let mut expected = [0; 8];
+        let expected = expected.get_mut(..default.len())?;
+        u64::from_bytes(default).wrapping_add(own).to_bytes(expected);
+        (self.bytes(position) == expected).then_some(default)
     }
 }
 
@@ -316,15 +349,13 @@ mod tests {
 
     #[test]
     fn defaults_follow_the_node_id() {
-        let entries = [
-            entry(DataType::Unsigned32, VARIABLE.and(Flags::NODE_RELATIVE), 0, 4),
-            entry(DataType::Unsigned16, VARIABLE, 4, 2),
-        ];
+        let other = Entry { index: Index(0x2001), ..entry(DataType::Unsigned16, VARIABLE, 4, 2) };
+        let entries = [entry(DataType::Unsigned32, VARIABLE.and(Flags::NODE_RELATIVE), 0, 4), other];
         let defaults = [0x80, 1, 0, 0x40, 0xE8, 3];
         let table = Table { defaults: &defaults, ..table(&entries) };
         let mut values = [0; 6];
         let mut objects = Objects::new(&table, &mut values);
-        objects.restore(NodeId::new(5).ok(), |entry| entry.size == 4);
+        objects.restore(NodeId::new(5).ok(), |index| index == Index(0x2000));
         let cob_id = Handle::<u32>::new(Position(0));
         let time = Handle::<u16>::new(Position(1));
         assert_eq!((objects.get(cob_id), objects.get(time)), (0x4000_0185, 0));

@@ -16,7 +16,8 @@ pub struct Table<'a> {
     pub limits: &'a [Limits],
     /// Which data types may fill gaps of RPDOs: bit i stands for the type at index i (`[DummyUsage]` of the EDS).
     pub dummies: u32,
-    /// A number that differs between dictionaries of different structure: stored values of another one are not loaded.
+    /// A number that differs between dictionaries of different structure: values that another one has stored are looked
+    /// through for what an update has moved.
     pub fingerprint: u32,
 }
 

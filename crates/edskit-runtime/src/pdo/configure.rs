@@ -1,13 +1,10 @@
-//! What clients may write into the parameters of PDOs, and what follows (CiA 301 v4.2, 7.5.2.35 to 7.5.2.38).
+//! What the parameters of PDOs can be set to, and what follows (CiA 301 v4.2, 7.5.2.35 to 7.5.2.38).
 
 use super::mapping::Slots;
 use super::{MOST_ENTRIES, Parameters, Place, Rpdo, Tpdo, sub};
+use crate::Value;
 use crate::context::Context;
-use crate::time::Timer;
-use crate::{Microseconds, Value};
-use edskit_types::{
-    AbortCode, CobId, Index, MappingEntry, NmtState, PdoDirection, SubIndex, TransmissionType,
-};
+use edskit_types::{AbortCode, CanId, CobId, MappingEntry, PdoDirection, SubIndex, TransmissionType};
 
 impl Context<'_> {
     /// Takes the configuration of all PDOs from the dictionary.
@@ -18,10 +15,8 @@ impl Context<'_> {
         for direction in [PdoDirection::Receive, PdoDirection::Transmit] {
             let mut next = 0;
             let start = Place { direction, number: 0 }.communication();
-            let entries = self.objects.table.entries_from(start);
-            for (_, entry) in entries.take_while(|(_, entry)| Place::of_communication(entry.index).is_some())
-            {
-                let Some(place) = Place::of_communication(entry.index) else { continue };
+            for (_, entry) in self.objects.table.entries_from(start) {
+                let Some((place, false)) = Place::at(entry.index) else { break };
                 if place.direction != direction || entry.sub_index.0 != sub::COB_ID {
                     continue;
                 }
@@ -29,8 +24,7 @@ impl Context<'_> {
                 first += u16::from(slots.capacity);
                 if self.add(place, next, slots) {
                     next += 1;
-                    self.load_communication(place);
-                    self.load_mapping(place);
+                    self.pdo_changed(place, true);
                 }
             }
         }
@@ -55,8 +49,9 @@ impl Context<'_> {
         true
     }
 
+    /// The parameters of a PDO among those at work.
     #[inline(never)]
-    fn parameters(&mut self, place: Place) -> Option<&mut Parameters> {
+    fn at_work(&mut self, place: Place) -> Option<&mut Parameters> {
         let is_it = |parameters: &&mut Parameters| parameters.number == place.number + 1;
         match place.direction {
             PdoDirection::Receive => self.rpdos.iter_mut().map(|rpdo| &mut rpdo.parameters).find(is_it),
@@ -64,112 +59,96 @@ impl Context<'_> {
         }
     }
 
-    fn cob_id_of(&self, place: Place) -> CobId {
-        self.objects.value(place.communication(), sub::COB_ID).map_or(CobId(CobId::BIT_31), CobId)
-    }
-
     fn slots_of(&mut self, place: Place) -> Slots {
-        self.parameters(place).map_or(Slots::NONE, |parameters| parameters.slots)
+        self.at_work(place).map_or(Slots::NONE, |parameters| parameters.slots)
     }
 
-    /// A communication parameter has been written.
-    pub(crate) fn load_communication(&mut self, place: Place) {
+    fn transmission_of(&self, place: Place) -> TransmissionType {
+        let transmission = self.objects.value(place.communication(), sub::TRANSMISSION_TYPE);
+        TransmissionType(transmission.unwrap_or(0xFF))
+    }
+
+    /// The identifier of a PDO that exists.
+    fn can_id_of(&self, place: Place) -> Option<CanId> {
+        let can_id = self.valid_can_id(place.communication(), sub::COB_ID)?;
+        (!self.transmission_of(place).is_reserved(place.direction)).then_some(can_id)
+    }
+
+    /// What follows from the parameters of a PDO: it takes them over, and what is left of the data, times and errors that
+    /// it had under the old ones, the two directions say. `is_remapped` says that the mapping is another one too.
+    pub(crate) fn pdo_changed(&mut self, place: Place, is_remapped: bool) {
         let index = place.communication();
-        let cob_id = self.cob_id_of(place);
-        let can_id = cob_id.is_valid().then(|| cob_id.can_id());
-        let transmission =
-            TransmissionType(self.objects.value(index, sub::TRANSMISSION_TYPE).unwrap_or(0xFF));
-        let event_time: u16 = self.objects.value(index, sub::EVENT_TIMER).unwrap_or_default();
-        let event_time = Microseconds::from_milliseconds(event_time.into());
-        let inhibit_time = self.objects.value(index, sub::INHIBIT_TIME).unwrap_or_default();
-        let sync_start = self.objects.value(index, sub::SYNC_START).unwrap_or_default();
-        let (now, is_operational) = (self.now, self.core.state == NmtState::Operational);
-        let Some(parameters) = self.parameters(place) else { return };
-        let was_valid = parameters.can_id.is_some();
-        let has_other_time = parameters.event_time != event_time;
-        parameters.can_id = can_id;
-        parameters.allows_rtr = !cob_id.bit30();
-        parameters.transmission = transmission;
-        parameters.event_time = event_time;
-        let number = parameters.number;
-        if place.direction == PdoDirection::Receive {
-            let rpdo = self.rpdos.iter_mut().find(|rpdo| rpdo.parameters.number == number);
-            if let Some(rpdo) = rpdo.filter(|rpdo| rpdo.deadline.is_running()) {
-                rpdo.deadline = Timer::after(now, event_time);
+        let cob_id = self.objects.value(index, sub::COB_ID).map_or(CobId(CobId::BIT_31), CobId);
+        let (can_id, transmission) = (self.can_id_of(place), self.transmission_of(place));
+        let event_time = self.objects.value(index, sub::EVENT_TIMER).unwrap_or_default();
+        let Some(old) = self.at_work(place).copied() else { return };
+        let mut new = Parameters { can_id, allows_rtr: !cob_id.bit30(), transmission, event_time, ..old };
+        if is_remapped {
+            let count = self.objects.value(place.mapping(), 0).unwrap_or_default();
+            let mapped = self.map(place, old.slots, count, true);
+            new.slots = mapped.unwrap_or(Slots { count: 0, bits: 0, ..old.slots });
+            new.is_mapping_invalid = mapped.is_err();
+        }
+        let number = new.number;
+        match place.direction {
+            PdoDirection::Receive => {
+                let position = self.rpdos.iter().position(|rpdo| rpdo.parameters.number == number);
+                self.rpdo_changed(position.unwrap_or_default(), new, is_remapped);
             }
-            return;
-        }
-        let tpdo = self.tpdos.iter_mut().find(|tpdo| tpdo.parameters.number == number);
-        let Some(tpdo) = tpdo else { return };
-        tpdo.inhibit_time = Microseconds::from_inhibit_time(inhibit_time);
-        tpdo.sync_start = sync_start;
-        let begins = can_id.is_some() && !was_valid;
-        if begins {
-            tpdo.syncs = 0;
-            tpdo.waits_for_start = sync_start > 0;
-            tpdo.is_due = is_operational;
-        }
-        if begins || has_other_time {
-            let runs = is_operational && can_id.is_some() && transmission.0 >= 254;
-            tpdo.event = if runs { Timer::after(now, event_time) } else { Timer::OFF };
+            PdoDirection::Transmit => {
+                let position = self.tpdos.iter().position(|tpdo| tpdo.parameters.number == number);
+                let inhibit_time = self.objects.value(index, sub::INHIBIT_TIME).unwrap_or_default();
+                let sync_start = self.objects.value(index, sub::SYNC_START);
+                let sync_start = sync_start.filter(|value| is_sync_start(*value)).unwrap_or_default();
+                let position = position.unwrap_or_default();
+                self.tpdo_changed(position, new, inhibit_time, sync_start, is_remapped);
+            }
         }
     }
 
-    /// The number of mapped entries has been written.
-    pub(crate) fn load_mapping(&mut self, place: Place) {
-        let slots = self.slots_of(place);
-        let count = self.objects.value(place.mapping(), 0).unwrap_or_default();
-        let mapped = self.map(place, slots, count);
-        if let Some(parameters) = self.parameters(place) {
-            parameters.slots = mapped.unwrap_or(Slots { count: 0, bits: 0, ..slots });
-            parameters.is_mapping_invalid = mapped.is_err();
-        }
-    }
-
-    /// A communication parameter is about to be written.
+    /// What a communication parameter can be set to.
     pub(crate) fn check_communication(
         &self,
         place: Place,
         sub_index: SubIndex,
         data: &[u8],
     ) -> Result<(), AbortCode> {
-        let old = self.cob_id_of(place);
+        let value = u32::from_bytes(data);
+        let is_right = match sub_index.0 {
+            sub::COB_ID => return self.check_cob_id(CobId(value)),
+            sub::TRANSMISSION_TYPE => !TransmissionType(value as u8).is_reserved(place.direction),
+            sub::SYNC_START => is_sync_start(value as u8),
+            _ => true,
+        };
+        if is_right { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
+    }
+
+    /// A communication parameter is about to be written: identifier, frame bit, inhibit time and SYNC start value cannot
+    /// change while the PDO exists.
+    pub(crate) fn check_communication_change(
+        &self,
+        place: Place,
+        sub_index: SubIndex,
+        new: CobId,
+    ) -> Result<(), AbortCode> {
+        let Some(can_id) = self.can_id_of(place) else { return Ok(()) };
         match sub_index.0 {
-            sub::COB_ID => {
-                let new = CobId(u32::from_bytes(data));
-                self.check_cob_id(new)?;
-                if old.is_valid() && new.is_valid() && (old.0 ^ new.0) & !CobId::BIT_30 != 0 {
-                    return Err(AbortCode::INVALID_VALUE);
-                }
-                Ok(())
-            }
-            sub::TRANSMISSION_TYPE => {
-                let is_reserved = TransmissionType(u8::from_bytes(data)).is_reserved(place.direction);
-                if is_reserved { Err(AbortCode::INVALID_VALUE) } else { Ok(()) }
-            }
-            sub::INHIBIT_TIME if old.is_valid() => Err(AbortCode::DEVICE_STATE),
-            sub::SYNC_START if old.is_valid() => Err(AbortCode::DEVICE_STATE),
-            sub::SYNC_START if u8::from_bytes(data) > 240 => Err(AbortCode::INVALID_VALUE),
+            sub::COB_ID if new.is_valid() && new.can_id() != can_id => Err(AbortCode::INVALID_VALUE),
+            sub::INHIBIT_TIME | sub::SYNC_START => Err(AbortCode::DEVICE_STATE),
             _ => Ok(()),
         }
     }
 
-    /// A mapping parameter is about to be written: the PDO must not be valid, an entry only while none counts.
+    /// What a mapping parameter can be set to: an entry that can be carried, and a number of such entries that fit.
     pub(crate) fn check_mapping(
         &mut self,
         place: Place,
         sub_index: SubIndex,
         data: &[u8],
     ) -> Result<(), AbortCode> {
-        if self.cob_id_of(place).is_valid() {
-            return Err(AbortCode::UNSUPPORTED_ACCESS);
-        }
-        let slots = self.slots_of(place);
         if sub_index.0 == 0 {
-            return self.map(place, slots, u8::from_bytes(data)).map(|_| ());
-        }
-        if self.objects.value::<u8>(place.mapping(), 0).unwrap_or_default() > 0 {
-            return Err(AbortCode::UNSUPPORTED_ACCESS);
+            let slots = self.slots_of(place);
+            return self.map(place, slots, u8::from_bytes(data), false).map(|_| ());
         }
         match u32::from_bytes(data) {
             0 => Ok(()),
@@ -177,9 +156,17 @@ impl Context<'_> {
         }
     }
 
-    /// The PDO whose communication or mapping parameter is at an index.
-    pub(crate) fn pdo_at(index: Index) -> Option<(Place, bool)> {
-        let communication = Place::of_communication(index).map(|place| (place, false));
-        communication.or_else(|| Place::of_mapping(index).map(|place| (place, true)))
+    /// A mapping parameter is about to be written: the PDO must not exist, an entry only while none counts.
+    pub(crate) fn check_mapping_change(&self, place: Place, sub_index: SubIndex) -> Result<(), AbortCode> {
+        let counts = || self.objects.value::<u8>(place.mapping(), 0).unwrap_or_default() > 0;
+        if self.can_id_of(place).is_some() || (sub_index.0 > 0 && counts()) {
+            return Err(AbortCode::UNSUPPORTED_ACCESS);
+        }
+        Ok(())
     }
+}
+
+/// Whether a number can be the counter of the SYNC message with which a TPDO begins; 0 for any.
+fn is_sync_start(value: u8) -> bool {
+    value <= 240
 }

@@ -48,10 +48,21 @@ impl Slots {
         mapped.get(first..first + usize::from(self.count)).unwrap_or_default()
     }
 
+    /// A bit for each value: those of the PDO are among those whose bits are set.
+    pub(super) fn carries(self, mapped: &[Mapped]) -> u32 {
+        let positions = self.of(mapped).iter().filter_map(|value| value.position);
+        positions.fold(0, |bits, position| bits | bit_of(position))
+    }
+
     /// How many data bytes the PDO has.
     pub(super) fn bytes(self) -> usize {
         usize::from(self.bits.div_ceil(8))
     }
+}
+
+/// The bit that stands for an entry, among others that share it.
+pub(super) fn bit_of(position: Position) -> u32 {
+    1 << (position.0 % 32)
 }
 
 /// The lowest `bits` bits.
@@ -71,24 +82,28 @@ pub(super) fn gather(objects: &Objects<'_>, mapped: &[Mapped]) -> u64 {
     data
 }
 
-/// Puts the data of a PDO into the dictionary. A value outside the limits of its entry is left out.
-pub(super) fn scatter(objects: &mut Objects<'_>, mapped: &[Mapped], mut data: u64) {
-    for value in mapped {
-        let bits = data & mask(value.bits);
-        data = data.checked_shr(value.bits.into()).unwrap_or(0);
-        let Some(position) = value.position else { continue };
-        let Some(entry) = objects.table().entry(position) else { continue };
-        let mut bytes = [0; 8];
-        bits.to_bytes(&mut bytes);
-        let size = usize::from(value.bits.div_ceil(8));
-        let bytes = bytes.get(..size).unwrap_or_default();
-        if objects.check_value(position, entry, bytes).is_ok() {
-            objects.store(position, bytes);
+impl Context<'_> {
+    /// Puts the data of the RPDO with this number from 1 into the dictionary, by the rules that hold for clients: limits,
+    /// those of the communication profile, and those of the device. A value that is refused is left out and told.
+    pub(super) fn scatter(&mut self, number: u16, slots: Slots, mut data: u64) {
+        for place in 0..slots.count {
+            let place = usize::from(slots.first) + usize::from(place);
+            let Some(value) = self.mapped.get(place).copied() else { continue };
+            let bits = data & mask(value.bits);
+            data = data.checked_shr(value.bits.into()).unwrap_or(0);
+            let Some(position) = value.position else { continue };
+            let Some(entry) = self.objects.table.entry(position) else { continue };
+            let mut bytes = [0; 8];
+            bits.to_bytes(&mut bytes);
+            let size = usize::from(value.bits.div_ceil(8));
+            let bytes = bytes.get(..size).unwrap_or_default();
+            if let Err(code) = self.bring(position, entry, bytes) {
+                self.core.refused_values = self.core.refused_values.saturating_add(1);
+                self.app.rpdo_value_refused(&mut self.objects, number, entry, code);
+            }
         }
     }
-}
 
-impl Context<'_> {
     /// Whether a mapping entry can be carried in a direction, and what it stands for.
     pub(super) fn check_entry(
         &mut self,
@@ -96,6 +111,10 @@ impl Context<'_> {
         mapping: MappingEntry,
     ) -> Result<Mapped, AbortCode> {
         let bits = mapping.bits();
+        let granularity = self.core.settings.granularity;
+        if granularity > 1 && !bits.is_multiple_of(granularity) {
+            return Err(AbortCode::NOT_MAPPABLE);
+        }
         if mapping.is_dummy() {
             return self.check_dummy(direction, mapping);
         }
@@ -137,12 +156,18 @@ impl Context<'_> {
         !entry.flags.has(Flags::OPTIONAL) || self.app.is_present(&self.objects, entry)
     }
 
-    /// Takes the first `count` entries of a mapping parameter.
+    /// What the first `count` entries of a mapping parameter make up; with `takes` each gets its place.
     ///
     /// # Errors
     /// What is wrong with one of them, or [`AbortCode::PDO_LENGTH_EXCEEDED`] where there are more than the PDO has places
     /// for, or more than 64 bits.
-    pub(super) fn map(&mut self, place: Place, slots: Slots, count: u8) -> Result<Slots, AbortCode> {
+    pub(super) fn map(
+        &mut self,
+        place: Place,
+        slots: Slots,
+        count: u8,
+        takes: bool,
+    ) -> Result<Slots, AbortCode> {
         if count > slots.capacity || count > MOST_ENTRIES {
             return Err(AbortCode::PDO_LENGTH_EXCEEDED);
         }
@@ -155,7 +180,8 @@ impl Context<'_> {
             if bits > MOST_BITS {
                 return Err(AbortCode::PDO_LENGTH_EXCEEDED);
             }
-            if let Some(slot) = self.mapped.get_mut(usize::from(slots.first) + usize::from(number)) {
+            let slot = self.mapped.get_mut(usize::from(slots.first) + usize::from(number));
+            if let Some(slot) = slot.filter(|_| takes) {
                 *slot = mapped;
             }
         }

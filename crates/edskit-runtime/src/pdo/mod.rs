@@ -35,17 +35,23 @@ pub(crate) struct Place {
 }
 
 impl Place {
+    /// The PDO whose parameter is at an index, and whether that is the mapping.
+    pub(crate) fn at(index: Index) -> Option<(Self, bool)> {
+        let communication = Self::of_communication(index).map(|place| (place, false));
+        communication.or_else(|| Self::of_mapping(index).map(|place| (place, true)))
+    }
+
     /// The PDO whose communication parameter is at an index.
-    pub(crate) fn of_communication(index: Index) -> Option<Self> {
-        Self::at(index, Index::RPDO_COMMUNICATION, Index::TPDO_COMMUNICATION)
+    fn of_communication(index: Index) -> Option<Self> {
+        Self::among(index, Index::RPDO_COMMUNICATION, Index::TPDO_COMMUNICATION)
     }
 
     /// The PDO whose mapping parameter is at an index.
-    pub(crate) fn of_mapping(index: Index) -> Option<Self> {
-        Self::at(index, Index::RPDO_MAPPING, Index::TPDO_MAPPING)
+    fn of_mapping(index: Index) -> Option<Self> {
+        Self::among(index, Index::RPDO_MAPPING, Index::TPDO_MAPPING)
     }
 
-    fn at(index: Index, receive: Index, transmit: Index) -> Option<Self> {
+    fn among(index: Index, receive: Index, transmit: Index) -> Option<Self> {
         let within = |first: Index| index.0.checked_sub(first.0).filter(|number| *number < MOST_PDOS);
         let direction = |direction| move |number| Self { direction, number };
         within(receive)
@@ -75,13 +81,14 @@ impl Place {
 struct Parameters {
     /// Its number from 1; 0 for a place that no PDO takes.
     number: u16,
-    /// The identifier; `None` while the PDO does not exist.
+    /// The identifier; `None` while the PDO does not exist: bit 31 of its COB-ID says so, or its COB-ID or transmission
+    /// type is one that a client could not write.
     can_id: Option<CanId>,
     /// Whether remote frames may ask for it.
     allows_rtr: bool,
     transmission: TransmissionType,
-    /// The time after which a TPDO is sent again, or the longest time between two frames of an RPDO; 0 for none.
-    event_time: Microseconds,
+    /// Milliseconds after which a TPDO is sent again, or the longest time between two frames of an RPDO; 0 for none.
+    event_time: u16,
     slots: Slots,
     /// Whether the mapping in the dictionary cannot be carried.
     is_mapping_invalid: bool,
@@ -93,10 +100,21 @@ impl Parameters {
         can_id: None,
         allows_rtr: false,
         transmission: TransmissionType(0xFF),
-        event_time: Microseconds(0),
+        event_time: 0,
         slots: Slots::NONE,
         is_mapping_invalid: false,
     };
+}
+
+impl Parameters {
+    fn event_time(&self) -> Microseconds {
+        Microseconds::from_milliseconds(self.event_time.into())
+    }
+
+    /// Whether other parameters are those of the same PDO: it goes on to exist with the same identifier and mapping.
+    fn is_same_pdo(&self, old: &Self, is_remapped: bool) -> bool {
+        self.can_id.is_some() && self.can_id == old.can_id && !is_remapped
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! RPDOs: taking frames, the SYNC message, and the event time.
 
 use super::Parameters;
-use super::mapping::scatter;
 use crate::context::Context;
 use crate::dictionary::raw;
 use crate::time::Timer;
@@ -13,14 +12,24 @@ use edskit_types::{CanId, NmtState, PdoDirection};
 pub struct Rpdo {
     pub(super) parameters: Parameters,
     /// Runs from the first frame on.
-    pub(super) deadline: Timer,
+    deadline: Timer,
     /// Data that wait for the SYNC message.
-    pub(super) waiting: Option<u64>,
+    waiting: Option<u64>,
+    /// Whether it is an error that no frame has come in time.
+    is_late: bool,
+    /// Whether it is an error that the last frame was too short.
+    is_short: bool,
 }
 
 impl Rpdo {
     /// A place for an RPDO.
-    pub const NEW: Self = Self { parameters: Parameters::NONE, deadline: Timer::OFF, waiting: None };
+    pub const NEW: Self = Self {
+        parameters: Parameters::NONE,
+        deadline: Timer::OFF,
+        waiting: None,
+        is_late: false,
+        is_short: false,
+    };
 
     pub(crate) fn deadline(&self) -> Instant {
         self.deadline.deadline()
@@ -32,6 +41,51 @@ impl Rpdo {
 }
 
 impl Context<'_> {
+    /// What is left of an RPDO with other parameters. Of one that is not the same any more, nothing is. Data wait for SYNC
+    /// only in a type that makes them wait. An event time that runs begins anew, and the error of the old one goes.
+    pub(super) fn rpdo_changed(&mut self, place: usize, new: Parameters, is_remapped: bool) {
+        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        let old = core::mem::replace(&mut rpdo.parameters, new);
+        if !new.is_same_pdo(&old, is_remapped) {
+            self.end_rpdo(place);
+            self.shortness_found(place, false, 0);
+            return;
+        }
+        if !new.transmission.is_synchronous(PdoDirection::Receive) {
+            rpdo.waiting = None;
+        }
+        if new.event_time != old.event_time {
+            if rpdo.deadline.is_running() {
+                rpdo.deadline = Timer::after(self.now, new.event_time());
+            }
+            self.lateness_found(place, false);
+        }
+    }
+
+    /// An RPDO is not received any more: nothing waits, and nothing is missed. That a frame was too short stays true.
+    pub(super) fn end_rpdo(&mut self, place: usize) {
+        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        rpdo.waiting = None;
+        rpdo.deadline = Timer::OFF;
+        self.lateness_found(place, false);
+    }
+
+    /// Whether no frame has come in time.
+    fn lateness_found(&mut self, place: usize, is_late: bool) {
+        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        let was_late = core::mem::replace(&mut rpdo.is_late, is_late);
+        let [low, high] = rpdo.parameters.number.to_le_bytes();
+        self.found(Error::RPDO_TIME_OUT, was_late, is_late, [low, high, 0, 0, 0]);
+    }
+
+    /// Whether the last frame was too short.
+    fn shortness_found(&mut self, place: usize, is_short: bool, length: u8) {
+        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        let was_short = core::mem::replace(&mut rpdo.is_short, is_short);
+        let [low, high] = rpdo.parameters.number.to_le_bytes();
+        self.found(Error::PDO_LENGTH, was_short, is_short, [low, high, length, 0, 0]);
+    }
+
     /// A frame that may be that of one or more RPDOs; false where it is of none.
     pub(crate) fn rpdo_received(&mut self, can_id: CanId, frame: &Frame) -> bool {
         let mut is_taken = false;
@@ -47,28 +101,26 @@ impl Context<'_> {
     }
 
     fn take(&mut self, place: usize, frame: &Frame) {
-        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
-        let number = rpdo.parameters.number;
-        let Some(data) = frame.data().get(..rpdo.parameters.slots.bytes()) else {
-            let [low, high] = number.to_le_bytes();
-            let length = frame.data().len() as u8;
-            self.raise(Error::PDO_LENGTH, number, [low, high, length, 0, 0]);
+        let Some(Rpdo { parameters, .. }) = self.rpdos.get(place) else { return };
+        let Parameters { number, slots, transmission, .. } = *parameters;
+        let Some(data) = frame.data().get(..slots.bytes()) else {
+            self.shortness_found(place, true, frame.data().len() as u8);
             return;
         };
         let data = raw(data, false);
-        rpdo.deadline = Timer::after(self.now, rpdo.parameters.event_time);
-        let slots = rpdo.parameters.slots;
-        let is_synchronous = rpdo.parameters.transmission.is_synchronous(PdoDirection::Receive);
-        if is_synchronous {
-            if !self.core.sync.window_has_passed(self.now) {
-                rpdo.waiting = Some(data);
-            }
-        } else {
-            scatter(&mut self.objects, slots.of(self.mapped), data);
+        let is_synchronous = transmission.is_synchronous(PdoDirection::Receive);
+        let is_in_time = !is_synchronous || !self.window_has_passed();
+        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        rpdo.deadline = Timer::after(self.now, rpdo.parameters.event_time());
+        if is_synchronous && is_in_time {
+            rpdo.waiting = Some(data);
+        }
+        self.shortness_found(place, false, 0);
+        self.lateness_found(place, false);
+        if !is_synchronous {
+            self.scatter(number, slots, data);
             self.app.rpdo_received(&mut self.objects, number);
         }
-        self.clear(Error::PDO_LENGTH, number);
-        self.clear(Error::RPDO_TIME_OUT, number);
     }
 
     /// The SYNC message makes the data count that were received before it.
@@ -80,7 +132,7 @@ impl Context<'_> {
             let Some(rpdo) = self.rpdos.get_mut(place) else { continue };
             let Some(data) = rpdo.waiting.take() else { continue };
             let (number, slots) = (rpdo.parameters.number, rpdo.parameters.slots);
-            scatter(&mut self.objects, slots.of(self.mapped), data);
+            self.scatter(number, slots, data);
             self.app.rpdo_received(&mut self.objects, number);
         }
     }
@@ -91,8 +143,7 @@ impl Context<'_> {
             if rpdo.deadline.is_due(self.now) {
                 rpdo.deadline = Timer::OFF;
                 let number = rpdo.parameters.number;
-                let [low, high] = number.to_le_bytes();
-                self.raise(Error::RPDO_TIME_OUT, number, [low, high, 0, 0, 0]);
+                self.lateness_found(place, true);
                 self.app.rpdo_timed_out(&mut self.objects, number);
             }
         }

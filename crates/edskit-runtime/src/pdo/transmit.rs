@@ -1,7 +1,7 @@
 //! TPDOs: when they are sent, and why they are not.
 
 use super::Parameters;
-use super::mapping::gather;
+use super::mapping::{bit_of, gather};
 use crate::context::Context;
 use crate::dictionary::Position;
 use crate::time::Timer;
@@ -12,29 +12,36 @@ use edskit_types::{CanId, NmtState, PdoDirection, Transmission};
 #[derive(Clone, Copy, Debug)]
 pub struct Tpdo {
     pub(super) parameters: Parameters,
-    pub(super) inhibit_time: Microseconds,
-    pub(super) sync_start: u8,
+    /// In multiples of 100 µs.
+    inhibit_time: u16,
+    sync_start: u8,
+    /// A bit for each value that it carries; others may have the same one.
+    carries: u32,
     /// Whether an event has happened that has not been sent yet.
-    pub(super) is_due: bool,
+    is_due: bool,
+    /// Whether it is to be sent as soon as the queue has room, whatever else holds: its SYNC message has come, or a request.
+    is_ready: bool,
     /// Runs while the PDO must not be sent again.
-    pub(super) inhibit: Timer,
+    inhibit: Timer,
     /// Runs to the next transmission without an event.
-    pub(super) event: Timer,
+    event: Timer,
     /// SYNC messages since the last transmission.
-    pub(super) syncs: u8,
+    syncs: u8,
     /// Whether the SYNC message with the start value has not come yet.
-    pub(super) waits_for_start: bool,
-    /// Data sampled at the last SYNC message, for type 252.
-    pub(super) sample: Option<u64>,
+    waits_for_start: bool,
+    /// Data sampled at the last SYNC message, for type 252, and for what has no room yet.
+    sample: Option<u64>,
 }
 
 impl Tpdo {
     /// A place for a TPDO.
     pub const NEW: Self = Self {
         parameters: Parameters::NONE,
-        inhibit_time: Microseconds(0),
+        inhibit_time: 0,
         sync_start: 0,
+        carries: 0,
         is_due: false,
+        is_ready: false,
         inhibit: Timer::OFF,
         event: Timer::OFF,
         syncs: 0,
@@ -42,12 +49,29 @@ impl Tpdo {
         sample: None,
     };
 
+    #[inline(never)]
     fn meaning(&self) -> Transmission {
         self.parameters.transmission.meaning(PdoDirection::Transmit)
     }
 
     fn is_event_driven(&self) -> bool {
         matches!(self.meaning(), Transmission::EventManufacturer | Transmission::EventProfile)
+    }
+
+    /// Whether an event leads to a transmission, at once or with the next SYNC message.
+    fn has_events(&self) -> bool {
+        self.is_event_driven() || self.meaning() == Transmission::SynchronousAcyclic
+    }
+
+    /// Whether it is sent in the period that its SYNC message has begun, and in no other.
+    fn is_of_a_period(&self) -> bool {
+        matches!(self.meaning(), Transmission::SynchronousAcyclic | Transmission::SynchronousCyclic(_))
+    }
+
+    /// The time between two transmissions without an event, which only types FEh and FFh have; 0 for none.
+    #[inline(never)]
+    fn event_period(&self) -> Microseconds {
+        if self.is_event_driven() { self.parameters.event_time() } else { Microseconds(0) }
     }
 
     /// Whether the PDO exists and carries something.
@@ -59,14 +83,44 @@ impl Tpdo {
         self.inhibit.is_running() && !self.inhibit.is_due(now)
     }
 
-    /// When it is to be sent; a due one that only the queue holds back is due where the queue has room.
-    pub(crate) fn deadline(&self, has_room: bool) -> Instant {
-        let waiting = match (self.is_due && self.is_event_driven() && self.is_usable(), has_room) {
-            (true, _) if self.inhibit.is_running() => self.inhibit.deadline(),
-            (true, true) => Instant::default(),
-            _ => Instant::NEVER,
+    /// When it is to be sent; what only the queue holds back is due when the queue has room.
+    pub(crate) fn deadline(&self, now: Instant, has_room: bool) -> Instant {
+        let is_sent_by_event = self.is_due && self.is_event_driven();
+        let waiting = if !self.is_usable() || !(self.is_ready || is_sent_by_event) {
+            Instant::NEVER
+        } else if !self.is_ready && self.is_inhibited(now) {
+            self.inhibit.deadline()
+        } else if has_room {
+            Instant::default()
+        } else {
+            Instant::NEVER
         };
         waiting.min(self.event.deadline())
+    }
+
+    /// It ends with all that it had besides its parameters.
+    fn end(&mut self) {
+        self.end_of_type();
+        self.is_due = false;
+        self.inhibit = Timer::OFF;
+        self.event = Timer::OFF;
+    }
+
+    /// It ends with what it had because of its transmission type.
+    fn end_of_type(&mut self) {
+        self.is_ready = false;
+        self.syncs = 0;
+        self.waits_for_start = self.sync_start > 0;
+        self.sample = None;
+    }
+
+    /// It begins, in the state operational.
+    fn begin(&mut self, now: Instant, is_event: bool) {
+        self.end();
+        if self.parameters.can_id.is_some() {
+            self.is_due = is_event && self.has_events();
+            self.event = Timer::after(now, self.event_period());
+        }
     }
 }
 
@@ -75,7 +129,7 @@ impl Tpdo {
 pub enum NotSent {
     /// The device has no TPDO of this number.
     NoSuchPdo,
-    /// Bit 31 of its COB-ID is 1.
+    /// It does not exist: bit 31 of its COB-ID is 1, or its COB-ID or transmission type cannot be used.
     Disabled,
     /// The mapping in the dictionary is not valid: an object does not exist or cannot be mapped, or the values are too long.
     MappingInvalid,
@@ -98,33 +152,60 @@ pub enum NotSent {
 }
 
 impl Context<'_> {
-    /// Every PDO begins anew: the state operational is entered.
-    pub(crate) fn start_pdos(&mut self) {
-        let now = self.now;
-        for tpdo in self.tpdos.iter_mut() {
-            tpdo.is_due = self.app.sends_at_start(tpdo.parameters.number);
-            tpdo.inhibit = Timer::OFF;
-            tpdo.syncs = 0;
-            tpdo.waits_for_start = tpdo.sync_start > 0;
-            tpdo.sample = None;
-            tpdo.event = if tpdo.is_event_driven() {
-                Timer::after(now, tpdo.parameters.event_time)
-            } else {
-                Timer::OFF
-            };
+    /// What is left of a TPDO with other parameters. Of one that is not the same any more, nothing is: it begins. A sample,
+    /// a count and a transmission that waits for room belong to the transmission type; an event stays one as long as the
+    /// type has events. The event timer runs as long as type and time ask for it, and begins anew when its time is another.
+    pub(super) fn tpdo_changed(
+        &mut self,
+        place: usize,
+        new: Parameters,
+        inhibit_time: u16,
+        sync_start: u8,
+        is_remapped: bool,
+    ) {
+        let is_operational = self.core.state == NmtState::Operational;
+        let Some(tpdo) = self.tpdos.get_mut(place) else { return };
+        // The device may change what a client cannot while the PDO exists.
+        let has_other_times = inhibit_time != tpdo.inhibit_time || sync_start != tpdo.sync_start;
+        let is_same = new.is_same_pdo(&tpdo.parameters, is_remapped) && !has_other_times;
+        let (old_meaning, old_period) = (tpdo.meaning(), tpdo.event_period());
+        tpdo.parameters = new;
+        tpdo.inhibit_time = inhibit_time;
+        tpdo.sync_start = sync_start;
+        tpdo.carries = new.slots.carries(self.mapped);
+        if !is_same {
+            tpdo.end();
+            if is_operational {
+                tpdo.begin(self.now, self.app.sends_at_start(new.number));
+            }
+            return;
+        }
+        if tpdo.meaning() != old_meaning {
+            tpdo.end_of_type();
+            tpdo.is_due &= tpdo.has_events();
+        } else if !new.allows_rtr && !tpdo.is_of_a_period() {
+            tpdo.is_ready = false;
+        }
+        if is_operational && tpdo.event_period() != old_period {
+            tpdo.event = Timer::after(self.now, tpdo.event_period());
         }
     }
 
-    /// The state operational is left.
+    /// Every PDO begins anew: the state operational is entered.
+    pub(crate) fn start_pdos(&mut self) {
+        for tpdo in self.tpdos.iter_mut() {
+            tpdo.begin(self.now, self.app.sends_at_start(tpdo.parameters.number));
+        }
+        self.core.next_tpdo = 0;
+    }
+
+    /// The state operational is left: no PDO is sent or received any more.
     pub(crate) fn stop_pdos(&mut self) {
         for tpdo in self.tpdos.iter_mut() {
-            tpdo.is_due = false;
-            tpdo.event = Timer::OFF;
-            tpdo.inhibit = Timer::OFF;
+            tpdo.end();
         }
-        for rpdo in self.rpdos.iter_mut() {
-            rpdo.waiting = None;
-            rpdo.deadline = Timer::OFF;
+        for place in 0..self.rpdos.len() {
+            self.end_rpdo(place);
         }
     }
 
@@ -133,7 +214,7 @@ impl Context<'_> {
         if self.core.state == NmtState::Operational {
             let is_it = |tpdo: &&mut Tpdo| tpdo.parameters.number == number;
             if let Some(tpdo) = self.tpdos.iter_mut().find(is_it) {
-                tpdo.is_due = true;
+                tpdo.is_due = tpdo.has_events();
             }
         }
     }
@@ -143,28 +224,36 @@ impl Context<'_> {
         if self.core.state != NmtState::Operational {
             return;
         }
-        for tpdo in self.tpdos.iter_mut() {
+        let bit = bit_of(position);
+        for tpdo in self.tpdos.iter_mut().filter(|tpdo| tpdo.carries & bit != 0) {
             let mut values = tpdo.parameters.slots.of(self.mapped).iter();
-            if values.any(|mapped| mapped.position() == Some(position)) {
+            if tpdo.has_events() && values.any(|mapped| mapped.position() == Some(position)) {
                 tpdo.is_due = true;
             }
         }
     }
 
+    /// Sends what is due, beginning with the TPDO for which there was no room the last time.
     pub(crate) fn poll_tpdos(&mut self) {
         if self.core.state != NmtState::Operational {
             return;
         }
-        for place in 0..self.tpdos.len() {
+        let mut without_room = None;
+        let count = self.tpdos.len();
+        for step in 0..count {
+            let place = usize::from(self.core.next_tpdo) + step;
+            let place = if place < count { place } else { place - count };
             let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
             if tpdo.event.is_due(self.now) {
-                tpdo.event = tpdo.event.again(self.now, tpdo.parameters.event_time);
+                tpdo.event = tpdo.event.again(self.now, tpdo.event_period());
                 tpdo.is_due = true;
             }
-            if tpdo.is_due && tpdo.is_event_driven() && !tpdo.is_inhibited(self.now) {
-                self.send(place);
+            let is_sent_by_event = tpdo.is_due && tpdo.is_event_driven() && !tpdo.is_inhibited(self.now);
+            if (tpdo.is_ready || is_sent_by_event) && !self.send(place) {
+                without_room.get_or_insert(place as u16);
             }
         }
+        self.core.next_tpdo = without_room.unwrap_or(0);
     }
 
     /// The SYNC message has come.
@@ -173,9 +262,10 @@ impl Context<'_> {
             return;
         }
         for place in 0..self.tpdos.len() {
+            self.lose_late(place);
             let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
-            match tpdo.meaning() {
-                Transmission::SynchronousAcyclic if tpdo.is_due => self.send(place),
+            let has_turn = match tpdo.meaning() {
+                Transmission::SynchronousAcyclic => tpdo.is_due,
                 Transmission::SynchronousCyclic(every) => {
                     if tpdo.waits_for_start && counter.is_some() {
                         if counter != Some(tpdo.sync_start) {
@@ -186,23 +276,38 @@ impl Context<'_> {
                     } else {
                         tpdo.syncs = tpdo.syncs.saturating_add(1);
                     }
-                    if tpdo.syncs >= every {
+                    let has_turn = tpdo.syncs >= every;
+                    if has_turn {
                         tpdo.syncs = 0;
-                        self.send(place);
                     }
+                    has_turn
                 }
-                Transmission::RtrSynchronous => {
-                    let sample = self.gather(place);
-                    if let Some(tpdo) = self.tpdos.get_mut(place) {
-                        tpdo.sample = Some(sample);
-                    }
+                Transmission::RtrSynchronous => true,
+                _ => false,
+            };
+            if has_turn && tpdo.is_usable() {
+                let sample = self.gather(place);
+                let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
+                tpdo.sample = Some(sample);
+                if tpdo.is_of_a_period() {
+                    tpdo.is_due = false;
+                    tpdo.is_ready = true;
                 }
-                _ => {}
             }
+        }
+        self.poll_tpdos();
+    }
+
+    /// What could not be sent in the period that it belongs to is lost, and that is told.
+    fn lose_late(&mut self, place: usize) {
+        let Some(tpdo) = self.tpdos.get_mut(place) else { return };
+        if tpdo.is_ready && tpdo.is_of_a_period() && tpdo.sample.take().is_some() {
+            tpdo.is_ready = false;
+            self.core.queue.note_loss();
         }
     }
 
-    /// A remote frame that may ask for a TPDO.
+    /// A remote frame that may ask for a TPDO. It is answered within the inhibit time too.
     pub(crate) fn tpdo_requested(&mut self, can_id: CanId) {
         if self.core.state != NmtState::Operational {
             return;
@@ -212,11 +317,10 @@ impl Context<'_> {
             tpdo.is_usable() && tpdo.parameters.allows_rtr && tpdo.parameters.can_id == Some(can_id)
         };
         let Some(place) = self.tpdos.iter().position(is_asked) else { return };
-        let Some(tpdo) = self.tpdos.get(place) else { return };
-        match (tpdo.meaning(), tpdo.sample) {
-            (Transmission::RtrSynchronous, Some(sample)) => self.send_data(place, sample),
-            (Transmission::RtrSynchronous, None) => {}
-            _ => self.send(place),
+        let Some(tpdo) = self.tpdos.get_mut(place) else { return };
+        if tpdo.meaning() != Transmission::RtrSynchronous || tpdo.sample.is_some() {
+            tpdo.is_ready = true;
+            self.send(place);
         }
     }
 
@@ -235,29 +339,31 @@ impl Context<'_> {
         gather(&self.objects, slots.of(self.mapped))
     }
 
-    fn send(&mut self, place: usize) {
-        if self.tpdos.get(place).is_some_and(Tpdo::is_usable) {
-            let data = self.gather(place);
-            self.send_data(place, data);
-        }
-    }
-
-    fn send_data(&mut self, place: usize, data: u64) {
-        let Some(tpdo) = self.tpdos.get_mut(place) else { return };
-        let Some(can_id) = tpdo.parameters.can_id else { return };
-        // Without room the PDO stays due, and carries newer data once there is room.
+    /// Sends a TPDO, with the data of its SYNC message where there are any; false where the queue has no room.
+    fn send(&mut self, place: usize) -> bool {
+        let Some(tpdo) = self.tpdos.get(place).filter(|tpdo| tpdo.is_usable()) else { return true };
         if self.core.queue.room() == 0 {
-            tpdo.is_due = true;
-            return;
+            return false;
         }
+        let sample = tpdo.sample;
+        if sample.is_some() && tpdo.is_of_a_period() && self.window_has_passed() {
+            self.lose_late(place);
+            return true;
+        }
+        let data = sample.unwrap_or_else(|| self.gather(place));
+        let Some(tpdo) = self.tpdos.get_mut(place) else { return true };
+        let Some(can_id) = tpdo.parameters.can_id else { return true };
         let bytes = data.to_le_bytes();
         let bytes = bytes.get(..tpdo.parameters.slots.bytes()).unwrap_or_default();
         self.core.queue.send(can_id, bytes);
-        tpdo.is_due = false;
-        tpdo.inhibit = Timer::after(self.now, tpdo.inhibit_time);
-        if tpdo.is_event_driven() && !tpdo.event.is_running() {
-            tpdo.event = Timer::after(self.now, tpdo.parameters.event_time);
+        tpdo.is_ready = false;
+        if tpdo.meaning() != Transmission::RtrSynchronous {
+            tpdo.sample = None;
         }
+        // An event since the SYNC message is not in these data.
+        tpdo.is_due &= sample.is_some();
+        tpdo.inhibit = Timer::after(self.now, Microseconds::from_inhibit_time(tpdo.inhibit_time));
+        true
     }
 
     /// Why the TPDO with this number from 1 is not being sent at the moment.
@@ -270,6 +376,7 @@ impl Context<'_> {
             _ if tpdo.parameters.is_mapping_invalid => NotSent::MappingInvalid,
             _ if tpdo.parameters.slots.count == 0 => NotSent::NothingMapped,
             _ if self.core.state != NmtState::Operational => NotSent::NotOperational(self.core.state),
+            _ if tpdo.is_ready => NotSent::QueueFull,
             Transmission::SynchronousAcyclic if tpdo.is_due => NotSent::WaitsForSync(1),
             Transmission::SynchronousCyclic(_) if tpdo.waits_for_start => {
                 NotSent::WaitsForSyncStart(tpdo.sync_start)

@@ -16,8 +16,10 @@ pub(super) struct BlockUpload {
     /// The bytes of the last segment, once it is sent.
     last: Option<u8>,
     uses_crc: bool,
-    /// Over what is acknowledged.
+    /// Over all segments that were sent, each once: what is sent again is the same.
     crc: Crc,
+    /// How many bytes that are.
+    checked: u32,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -60,6 +62,7 @@ impl Context<'_> {
             last: None,
             uses_crc: command & BLOCK_CRC != 0,
             crc: Crc::new(),
+            checked: 0,
         });
         Ok(Next::Request)
     }
@@ -99,15 +102,10 @@ impl Context<'_> {
         }
         check_block_size(block_size)?;
         upload.block_size = block_size;
-        for place in 1..=sequence {
-            let mut segment = [0; SEGMENT];
-            let count = self.read_item(number, item, item.offset, &mut segment)?;
-            // Of an application that changes its mind, what was sent counts.
-            let count = upload.last.filter(|_| place == upload.sent).map_or(count, usize::from);
-            upload.crc.update(segment.get(..count).unwrap_or_default());
-            item.offset += count as u32;
-        }
         let ends = upload.last.filter(|_| sequence == upload.sent);
+        // Every segment but the last one of all is full.
+        let unused = ends.map_or(0, |last| SEGMENT as u32 - u32::from(last));
+        item.offset += (u32::from(sequence) * SEGMENT as u32).saturating_sub(unused);
         upload.sent = 0;
         upload.last = None;
         let Some(last) = ends else {
@@ -129,6 +127,10 @@ impl Context<'_> {
             let mut segment = [0; SEGMENT];
             let count = self.read_item(number, item, offset, &mut segment)?;
             let is_last = item.ends_with(offset, count);
+            if offset == upload.checked {
+                upload.crc.update(segment.get(..count).unwrap_or_default());
+                upload.checked += count as u32;
+            }
             upload.sent += 1;
             let flag = if is_last { LAST_SEGMENT } else { 0 };
             let [a, b, c, d, e, f, g] = segment;

@@ -4,6 +4,7 @@ use super::{
     EXPEDITED, Item, Next, Request, SEGMENT, Session, Step, TOGGLE, Transfer, number_of, take_toggle,
 };
 use crate::context::Context;
+use edskit_types::DataType;
 
 impl Context<'_> {
     pub(super) fn begin_download(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
@@ -13,8 +14,10 @@ impl Context<'_> {
         let next = if is_expedited {
             let announced = says_length.then(|| EXPEDITED as u32 - u32::from(command >> 2 & 3));
             self.open_target(item, announced)?;
-            let size = u32::from(self.entry_of(item)?.size);
-            // Without a length, so many bytes count as the entry has.
+            let entry = self.entry_of(item)?;
+            // Without a length, so many bytes count as the type has; where that fixes none, all four.
+            let is_fixed = entry.data_type != DataType::Domain && !entry.data_type.is_string();
+            let size = if is_fixed { u32::from(entry.size) } else { EXPEDITED as u32 };
             let length = announced.unwrap_or(size).min(EXPEDITED as u32) as usize;
             self.append(number, item, data.get(..length).unwrap_or_default())?;
             self.finish(number, item)?

@@ -101,6 +101,11 @@ impl<'a> Context<'a> {
         Ok(())
     }
 
+    /// The DOMAIN that a transfer is about; `None` where it is about another value.
+    pub(super) fn domain_of(&self, item: &Item) -> Option<&'a Entry> {
+        self.entry_of(item).ok().filter(|_| item.origin == Origin::Domain)
+    }
+
     pub(super) fn entry_of(&self, item: &Item) -> Result<&'a Entry, AbortCode> {
         self.objects.table.entry(item.position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)
     }

@@ -11,7 +11,7 @@ use crate::time::Timer;
 use crate::{Frame, Instant, MOST_DATA, Microseconds};
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
-use edskit_types::{AbortCode, CanId, CobId, Index, NmtState, NodeId, SubIndex};
+use edskit_types::{AbortCode, CanId, CobId, Index, NodeId, SubIndex};
 use item::Item;
 
 /// How long a client may be silent during a transfer.
@@ -45,18 +45,20 @@ pub struct SdoServer {
     /// The identifiers of requests and responses; `None` while it is not in use.
     can_ids: Option<(CanId, CanId)>,
     session: Session,
+    /// A response for which the queue has had no room yet.
+    response: Option<Request>,
 }
 
 impl SdoServer {
     /// A place for a server.
-    pub const NEW: Self = Self { index: DEFAULT, can_ids: None, session: Session::NONE };
+    pub const NEW: Self = Self { index: DEFAULT, can_ids: None, session: Session::NONE, response: None };
 
     pub(crate) fn takes(&self, can_id: CanId) -> bool {
         self.can_ids.is_some_and(|(request, _)| request == can_id)
     }
 
     pub(crate) fn deadline(&self, has_room: bool) -> Instant {
-        if has_room && self.session.is_sending() {
+        if has_room && (self.session.is_sending() || self.response.is_some()) {
             return Instant::default();
         }
         self.session.time_out.deadline()
@@ -148,27 +150,42 @@ impl Context<'_> {
         }
     }
 
-    /// The parameters of a server have been written.
+    /// What follows from the parameters of a server: with other identifiers, its transfer ends without a word.
     pub(crate) fn configure_server(&mut self, index: Index) {
         let can_ids =
             if index == DEFAULT { self.core.node_id.and_then(default_can_ids) } else { self.can_ids(index) };
-        if let Some(server) = self.servers.iter_mut().find(|server| server.index == index) {
-            if server.can_ids != can_ids {
-                server.session = Session::NONE;
-            }
+        let Some(number) = self.servers.iter().position(|server| server.index == index) else { return };
+        if self.servers.get(number).is_some_and(|server| server.can_ids != can_ids) {
+            self.end_transfer(number);
+        }
+        if let Some(server) = self.servers.get_mut(number) {
             server.can_ids = can_ids;
         }
     }
 
     /// The identifiers that a parameter object names, where both are valid.
     fn can_ids(&self, index: Index) -> Option<(CanId, CanId)> {
-        let cob_id =
-            |sub_index| self.objects.value(index, sub_index).map(CobId).filter(|cob_id| cob_id.is_valid());
-        Some((cob_id(REQUEST)?.can_id(), cob_id(RESPONSE)?.can_id()))
+        Some((self.server_can_id(index, REQUEST)?, self.server_can_id(index, RESPONSE)?))
+    }
+
+    fn server_can_id(&self, index: Index, sub_index: u8) -> Option<CanId> {
+        let cob_id = self.objects.value(index, sub_index).map(CobId)?;
+        let is_valid = cob_id.is_valid() && self.check_server(SubIndex(sub_index), cob_id).is_ok();
+        is_valid.then(|| cob_id.can_id())
+    }
+
+    /// What a parameter of a server can be set to.
+    pub(crate) fn check_server(&self, sub_index: SubIndex, cob_id: CobId) -> Result<(), AbortCode> {
+        if ![REQUEST, RESPONSE].contains(&sub_index.0) {
+            return Ok(());
+        }
+        // The identifiers of other nodes' default SDOs are what further channels are made of, although 7.3.5 restricts them.
+        let is_default_sdo = matches!(cob_id.can_id().raw(), 0x581..=0x5FF | 0x601..=0x67F);
+        self.check_cob_id(if is_default_sdo { CobId(cob_id.0 | CobId::BIT_31) } else { cob_id })
     }
 
     /// A parameter of a server is about to be written. A valid identifier has to be made invalid before it can change.
-    pub(crate) fn check_server(
+    pub(crate) fn check_server_change(
         &self,
         index: Index,
         sub_index: SubIndex,
@@ -177,15 +194,10 @@ impl Context<'_> {
         if ![REQUEST, RESPONSE].contains(&sub_index.0) {
             return Ok(());
         }
-        // The identifiers of other nodes' default SDOs are what further channels are made of, although 7.3.5 restricts them.
-        let is_default_sdo = matches!(new.can_id().raw(), 0x581..=0x5FF | 0x601..=0x67F);
-        self.check_cob_id(if is_default_sdo { CobId(new.0 | CobId::BIT_31) } else { new })?;
-        let old: u32 = self.objects.value(index, sub_index.0).unwrap_or(CobId::BIT_31);
-        let old = CobId(old);
-        if old.is_valid() && new.is_valid() && old.can_id() != new.can_id() {
-            return Err(AbortCode::INVALID_VALUE);
+        match self.server_can_id(index, sub_index.0) {
+            Some(old) if new.is_valid() && old != new.can_id() => Err(AbortCode::INVALID_VALUE),
+            _ => Ok(()),
         }
-        Ok(())
     }
 
     /// A frame for a server.
@@ -198,13 +210,17 @@ impl Context<'_> {
 
     fn answer_request(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
         let [command, ..] = *request;
-        if command == ABORT {
+        // The low bits of an abort are reserved, but in a block they number a segment.
+        let is_segment =
+            matches!(&session.transfer, Transfer::BlockDownload(download) if download.is_in_block());
+        if command == ABORT || (command & COMMAND == ABORT && !is_segment) {
+            self.break_off(session);
             return Ok(Next::End);
         }
         let Session { item, transfer, .. } = session;
         match (command & COMMAND, transfer) {
             // In a block of a download the first byte is a sequence number and not a command.
-            (_, Transfer::BlockDownload(download)) if download.is_in_block() => {
+            (_, Transfer::BlockDownload(download)) if is_segment => {
                 self.block_download_segment(number, item, download, request)
             }
             (0x00, Transfer::Download { toggle }) => self.download_segment(number, item, toggle, request),
@@ -216,7 +232,9 @@ impl Context<'_> {
                 self.end_block_download(number, item, download, request)
             }
             _ => {
-                (item.index, item.sub_index) = place_of(request);
+                self.break_off(session);
+                session.transfer = Transfer::None;
+                (session.item.index, session.item.sub_index) = place_of(request);
                 self.begin_transfer(number, session, request)
             }
         }
@@ -238,6 +256,7 @@ impl Context<'_> {
     /// Goes on with what a request has led to: the transfer goes on or ends, or is aborted.
     fn settle(&mut self, number: usize, mut session: Session, step: Step) {
         if let Err(code) = step {
+            self.break_off(&session);
             let Item { index, sub_index, .. } = session.item;
             let code = self.app.abort_code(code, index, sub_index);
             self.answer_about(number, ABORT, &session.item, code.0.to_le_bytes());
@@ -252,9 +271,22 @@ impl Context<'_> {
         }
     }
 
+    /// Sends a response, as soon as the queue has room. One that a client no longer waits for, having asked again, is lost.
     fn respond(&mut self, number: usize, data: Request) {
-        if let Some((_, response)) = self.servers.get(number).and_then(|server| server.can_ids) {
-            self.core.queue.send(response, &data);
+        let Some(server) = self.servers.get_mut(number) else { return };
+        if server.response.replace(data).is_some() {
+            self.core.queue.note_loss();
+        }
+        self.send_response(number);
+    }
+
+    fn send_response(&mut self, number: usize) {
+        let Some(server) = self.servers.get_mut(number) else { return };
+        if self.core.queue.room() == 0 {
+            return;
+        }
+        if let (Some(data), Some((_, can_id))) = (server.response.take(), server.can_ids) {
+            self.core.queue.send(can_id, &data);
         }
     }
 
@@ -266,9 +298,10 @@ impl Context<'_> {
         self.respond(number, [command, low, high, item.sub_index.0, a, b, c, d]);
     }
 
-    /// Sends what is left of blocks, and ends transfers whose client is silent.
+    /// Sends what is left of responses and blocks, and ends transfers whose client is silent.
     pub(crate) fn poll_servers(&mut self) {
         for number in 0..self.servers.len() {
+            self.send_response(number);
             let Some(server) = self.servers.get(number) else { continue };
             let is_late = server.session.time_out.is_due(self.now);
             if !is_late && !server.session.is_sending() {
@@ -283,11 +316,25 @@ impl Context<'_> {
         }
     }
 
-    /// The state stopped is entered: transfers end without a word.
-    pub(crate) fn stop_transfers(&mut self) {
-        debug_assert_eq!(self.core.state, NmtState::Stopped);
-        for server in self.servers.iter_mut() {
-            server.session = Session::NONE;
+    /// All transfers end without a word: the node stops, or is reset.
+    pub(crate) fn end_transfers(&mut self) {
+        for number in 0..self.servers.len() {
+            self.end_transfer(number);
+        }
+    }
+
+    fn end_transfer(&mut self, number: usize) {
+        let Some(server) = self.servers.get_mut(number) else { return };
+        let session = core::mem::replace(&mut server.session, Session::NONE);
+        server.response = None;
+        self.break_off(&session);
+    }
+
+    /// A transfer ends before its time: the application is told where it has got a part of a DOMAIN.
+    fn break_off(&mut self, session: &Session) {
+        let is_download = matches!(session.transfer, Transfer::Download { .. } | Transfer::BlockDownload(_));
+        if is_download && let Some(entry) = self.domain_of(&session.item) {
+            self.app.domain_broken_off(&mut self.objects, entry, session.item.offset);
         }
     }
 }

@@ -84,6 +84,25 @@ impl Builder {
         self
     }
 
+    /// Another value for an entry that is there.
+    pub(super) fn with(mut self, index: u16, sub_index: u8, value: &[u8]) -> Self {
+        let draft = self.draft(index, sub_index);
+        draft.value = value[..draft.value.len()].to_vec();
+        draft.entry.flags = RW;
+        self
+    }
+
+    /// Other rights for an entry that is there.
+    pub(super) fn rights(mut self, index: u16, sub_index: u8, flags: Flags) -> Self {
+        self.draft(index, sub_index).entry.flags = flags;
+        self
+    }
+
+    fn draft(&mut self, index: u16, sub_index: u8) -> &mut Draft {
+        let is_it = |draft: &&mut Draft| (draft.entry.index.0, draft.entry.sub_index.0) == (index, sub_index);
+        self.0.iter_mut().find(is_it).unwrap()
+    }
+
     pub(super) fn build(mut self) -> Device {
         self.0.sort_by_key(|draft| (draft.entry.index, draft.entry.sub_index));
         let (mut constants, mut defaults, mut limits) = (Vec::new(), Vec::new(), Vec::new());
@@ -105,22 +124,29 @@ impl Builder {
             entries.push(draft.entry);
         }
         let values = defaults.clone();
+        let numbers = |entry: &Entry| {
+            let group = entry.flags.group().map_or(0, |group| u32::from(group.0));
+            [u32::from(entry.index.0), entry.sub_index.0.into(), entry.size.into(), group]
+        };
+        let fingerprint =
+            entries.iter().flat_map(numbers).fold(1, |hash: u32, number| hash.wrapping_mul(31) ^ number);
         let table = Table {
             entries: Box::leak(entries.into_boxed_slice()),
             constants: Box::leak(constants.into_boxed_slice()),
             defaults: Box::leak(defaults.into_boxed_slice()),
             limits: Box::leak(limits.into_boxed_slice()),
             dummies: 0b1111_1100,
-            fingerprint: 0x1234_5678,
+            fingerprint,
         };
         Device {
             table,
             values,
+            // Room for any device of these tests.
             rpdos: vec![Rpdo::NEW; 4],
-            tpdos: vec![Tpdo::NEW; 4],
-            mapped: vec![Mapped::NEW; 64],
+            tpdos: vec![Tpdo::NEW; 100],
+            mapped: vec![Mapped::NEW; 1000],
             servers: vec![SdoServer::NEW; 2],
-            consumers: vec![HeartbeatConsumer::NEW; 2],
+            consumers: vec![HeartbeatConsumer::NEW; 40],
             buffers: vec![0; 2 * 200],
         }
     }

@@ -1,8 +1,8 @@
 use super::device::plain;
 use super::storage::Memory;
 use super::{Bench, frame};
-use crate::{Application, NoStorage, Settings};
-use edskit_types::{Bitrate, NodeId};
+use crate::{Application, Commissioning, NoStorage, Record, Settings};
+use edskit_types::{BitRates, Bitrate, NodeId};
 use std::boxed::Box;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -164,4 +164,89 @@ fn bit_timing() {
     }
     assert_eq!(request(&mut bench, &[0x15, 0xE8, 3]), None);
     assert_eq!(noted.get(), Some((Bitrate::Kbit125, 1000)));
+}
+
+// W14
+
+#[test]
+fn node_id_and_bit_rate_are_stored_and_come_back_together() {
+    let memory = Memory::default();
+    let settings = Settings { node_id: NodeId::new(5).ok(), ..Settings::DEFAULT };
+    let power_on = |memory: &Memory| {
+        let noted = Rc::new(Cell::new(None));
+        let mut bench = Bench::off(plain().build(), settings, Box::new(memory.clone()));
+        bench.app = Box::new(Radio(noted.clone()));
+        let boot_up = bench.poll()[0].can_id().raw() - 0x700;
+        let commissioning = Commissioning::stored(&mut memory.clone(), &settings);
+        assert_eq!(commissioning.node_id.map(NodeId::get), Some(boot_up as u8));
+        assert_eq!(
+            commissioning.bit_rate,
+            noted.get().map(|(bit_rate, delay)| {
+                assert_eq!(delay, 0);
+                bit_rate
+            })
+        );
+        request(&mut bench, &[4, 1]);
+        (bench, boot_up, commissioning.bit_rate)
+    };
+    let (mut bench, node_id, bit_rate) = power_on(&memory);
+    assert_eq!((node_id, bit_rate), (5, None));
+    request(&mut bench, &[0x13, 0, 3]);
+    request(&mut bench, &[0x11, 9]);
+    request(&mut bench, &[0x17]);
+    let (mut bench, node_id, bit_rate) = power_on(&memory);
+    assert_eq!((node_id, bit_rate), (9, Some(Bitrate::Kbit250)));
+    request(&mut bench, &[0x11, 10]);
+    request(&mut bench, &[0x17]);
+    let (mut bench, node_id, bit_rate) = power_on(&memory);
+    assert_eq!((node_id, bit_rate), (10, Some(Bitrate::Kbit250)));
+    // What is configured and not stored is lost, either half.
+    request(&mut bench, &[0x13, 0, 0]);
+    request(&mut bench, &[0x11, 11]);
+    let (mut bench, node_id, bit_rate) = power_on(&memory);
+    assert_eq!((node_id, bit_rate), (10, Some(Bitrate::Kbit250)));
+    request(&mut bench, &[0x13, 0, 4]);
+    request(&mut bench, &[0x17]);
+    let (_, node_id, bit_rate) = power_on(&memory);
+    assert_eq!((node_id, bit_rate), (10, Some(Bitrate::Kbit125)));
+
+    // The rules of the device hold for what is stored.
+    let others = Settings { bit_rates: BitRates::NONE.and(Bitrate::Kbit500), ..settings };
+    let commissioning = Commissioning::stored(&mut memory.clone(), &others);
+    assert_eq!((commissioning.node_id, commissioning.bit_rate), (NodeId::new(10).ok(), None));
+    let without = Settings { has_lss: false, ..settings };
+    let commissioning = Commissioning::stored(&mut memory.clone(), &without);
+    assert_eq!((commissioning.node_id, commissioning.bit_rate), (NodeId::new(5).ok(), None));
+}
+
+#[test]
+fn a_torn_record_is_told() {
+    let memory = Memory::default();
+    let mut bench = Bench::off(with_emcy(), Settings::default(), Box::new(memory.clone()));
+    bench.poll();
+    request(&mut bench, &[4, 1]);
+    request(&mut bench, &[0x11, 9]);
+    request(&mut bench, &[0x17]);
+    for place in 0..6 {
+        memory.flip(Record::Lss, place);
+        let mut bench = Bench::off(with_emcy(), Settings::default(), Box::new(memory.clone()));
+        assert_eq!(bench.poll(), [frame(0x701, &[0]), frame(0x81, &[0, 0x63, 1, 0, 0, 0, 0, 0])]);
+        memory.flip(Record::Lss, place);
+    }
+}
+
+fn with_emcy() -> super::Device {
+    plain().u32(0x1014, 0, super::device::COB_ID, 0x80).build()
+}
+
+#[test]
+fn only_bit_rates_of_the_device_can_be_configured() {
+    let bit_rates = BitRates::NONE.and(Bitrate::Kbit500).and(Bitrate::Kbit20);
+    let settings = Settings { bit_rates, ..Settings::DEFAULT };
+    let mut bench = Bench::off(plain().build(), settings, Box::new(NoStorage));
+    bench.poll();
+    request(&mut bench, &[4, 1]);
+    let accepted: Vec<u8> =
+        (0..=9).filter(|number| request(&mut bench, &[0x13, 0, *number]).unwrap()[1] == 0).collect();
+    assert_eq!(accepted, [2, 7]);
 }

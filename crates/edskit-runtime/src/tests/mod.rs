@@ -2,12 +2,16 @@
 
 mod device;
 mod device_hooks;
+mod domains;
 mod emergencies;
+mod error_changes;
 mod error_control;
 mod hostile;
 mod lss;
 mod nmt;
 mod pdo;
+mod pdo_changes;
+mod room;
 mod sdo;
 mod sdo_block;
 mod storage;

@@ -65,9 +65,14 @@ fn nothing_happens_before_power_on() {
 
 #[test]
 fn a_node_may_start_by_itself() {
-    for (startup, state) in [(0, NmtState::Operational), (4, NmtState::PreOperational)] {
+    // Bit 0 says that the device is the NMT master; bit 2 speaks of a master. Else only 8 as a whole means something here.
+    let starting = [1, 3, 8, 9, 0x41];
+    for startup in (0..=0x4F).chain([0x8000_0000, 0x0000_0108]) {
         let bench = Bench::new(plain().u32(0x1F80, 0, RW, startup).build());
-        assert_eq!(bench.node.state(), state);
+        let is_master = startup & 1 == 1 && startup & 4 == 0;
+        assert!(!starting.contains(&startup) || is_master || startup == 8);
+        let state = if is_master || startup == 8 { NmtState::Operational } else { NmtState::PreOperational };
+        assert_eq!(bench.node.state(), state, "{startup:X}");
     }
 }
 

@@ -1,12 +1,12 @@
 //! The grammar of commands on a live bus.
 
-use super::{LogFormat, parse_node_id};
+use super::{LogFormat, one_file, parse_node_id};
 use crate::value::ValueType;
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use edskit_host::Address;
 use edskit_host::sdo::SdoMode;
 use edskit_runtime::Microseconds;
-use edskit_types::{NmtCommand, NodeId};
+use edskit_types::{Bitrate, NmtCommand, NodeId};
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -18,17 +18,23 @@ const HUB_WITH_REMOTE_FRAMES: &str = "slcan:127.0.0.1:29537";
 #[derive(Args, Debug)]
 pub(crate) struct RunArguments {
     /// An EDS or DCF; or `gateway`, the Heinzmann CANopen gateway, which is built in (a file of that name is `./gateway`)
-    #[arg(value_hint = ValueHint::FilePath)]
+    #[arg(value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) file: PathBuf,
     /// The node-ID; that of a DCF if it has one, else 1. That of the gateway is its parameter P427
     #[arg(long, value_parser = parse_node_id)]
     pub(crate) node_id: Option<NodeId>,
-    /// The bus: `hub` starts one in this process, `socketcand:HOST:PORT`, `slcan:HOST:PORT` and `socketcan:can0` join one
+    /// The bus: `hub` starts one in this process, `virtual` one whose time passes only while every attached program waits
+    /// (docs/virtual-time.md), `socketcand:HOST:PORT`, `slcan:HOST:PORT`, `virtual:HOST:PORT` and `socketcan:can0` join one
     #[arg(long, value_name = "ADDRESS", default_value = "hub")]
     pub(crate) bus: Address,
-    /// Where the hub listens for socketcand, and on the next port for SLCAN; port 0 takes free ones
+    /// Where the hub listens for socketcand, and on the next port for SLCAN; where the bus in virtual time listens; port 0
+    /// takes free ones
     #[arg(long, value_name = "ADDR:PORT")]
     pub(crate) listen: Option<SocketAddr>,
+    /// The bit rate of the bus in virtual time, in kbit/s: 10, 20, 50, 125, 250, 500, 800, 1000 [default: that of a DCF if
+    /// it has one, else 1000]. That of the gateway is its parameter P426
+    #[arg(long, value_name = "KBIT", value_parser = parse_bit_rate)]
+    pub(crate) bit_rate: Option<Bitrate>,
     /// Record every frame in this file: .log for the format of candump, .pcap for that of Wireshark
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub(crate) trace: Option<PathBuf>,
@@ -36,13 +42,13 @@ pub(crate) struct RunArguments {
     #[arg(long, value_enum)]
     pub(crate) log: Option<LogFormat>,
     /// The gateway's parameters, in a file as `edskit config check` takes it; without it each has its default
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) params: Option<PathBuf>,
     /// What happens to the gateway, and when (docs/gateway.md)
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) scenario: Option<PathBuf>,
     /// Run the gateway for so many seconds of virtual time, on a bus of its own and without waiting
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["bus", "listen"])]
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["bus", "listen", "bit_rate"])]
     pub(crate) simulate: Option<Microseconds>,
 }
 
@@ -61,11 +67,12 @@ pub(crate) struct BusArguments {
 
 #[derive(Args, Debug)]
 pub(crate) struct MonitorArguments {
-    /// The bus: `slcan:HOST:PORT`, `socketcand:HOST:PORT/CHANNEL` (has no remote frames) or `socketcan:can0`; `hub` starts one
+    /// The bus: `slcan:HOST:PORT`, `socketcand:HOST:PORT/CHANNEL` (has no remote frames), `virtual:HOST:PORT` or
+    /// `socketcan:can0`; `hub` starts one
     #[arg(long, value_name = "ADDRESS", default_value = HUB_WITH_REMOTE_FRAMES)]
     pub(crate) bus: Address,
-    /// An EDS or DCF that gives names and types to what a node says; @NODE says which one, a DCF knows its own; may be
-    /// given several times
+    /// An EDS or DCF that gives names and types to what a node says, and its PDOs until transfers show others; @NODE says
+    /// which one, a DCF knows its own; may be given several times
     #[arg(long = "eds", value_name = "FILE[@NODE]", value_hint = ValueHint::FilePath)]
     pub(crate) devices: Vec<String>,
     /// How frames are printed
@@ -79,7 +86,7 @@ pub(crate) struct MonitorArguments {
 /// Where the bus is, and how long to wait on it.
 #[derive(Args, Debug)]
 pub(crate) struct ConnectionArguments {
-    /// The bus: `socketcand:HOST:PORT/CHANNEL`, `slcan:HOST:PORT` or `socketcan:can0`
+    /// The bus: `socketcand:HOST:PORT/CHANNEL`, `slcan:HOST:PORT`, `virtual:HOST:PORT` or `socketcan:can0`
     #[arg(long, value_name = "ADDRESS", default_value = HUB)]
     pub(crate) bus: Address,
     /// How long to wait for an answer, in ms
@@ -156,7 +163,7 @@ pub(crate) struct SdoPlaceArguments {
     #[arg(value_name = "INDEX[:SUB]")]
     pub(crate) place: String,
     /// The EDS or DCF of the node: names, types, and better reasons where something is refused
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = one_file())]
     pub(crate) eds: Option<PathBuf>,
     /// The type of the value: u8..u64, i8..i64, f32, f64, bool, string, unicode, hex, time, duration
     #[arg(long = "type", value_name = "TYPE")]
@@ -194,7 +201,7 @@ pub(crate) struct SdoWriteArguments {
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum TransferKind {
-    /// What suits the length
+    /// What suits the length; segments where the node does no blocks
     Auto,
     /// In segments
     Segmented,
@@ -221,6 +228,12 @@ pub(crate) enum ReadFormat {
     Text,
     /// JSON
     Json,
+}
+
+fn parse_bit_rate(text: &str) -> Result<Bitrate, String> {
+    let bit_rate = text.parse().ok().and_then(Bitrate::from_kbit_per_s);
+    bit_rate
+        .ok_or_else(|| "a bit rate of CANopen is 10, 20, 50, 125, 250, 500, 800 or 1000 kbit/s".to_owned())
 }
 
 /// The longest time that can be simulated, in s: eleven days.

@@ -1,14 +1,17 @@
 //! What the gateway does not check, and what is hardly meant.
 
+use super::decimal::Decimal;
 use super::problem::{self, Problem};
-use super::reading::{Reading, Setting};
+use super::reading::Reading;
 use super::words;
 use edskit_devices::gateway::{
-    Activity, Input, Owner, Parameter, Pdo, PdoTable, Period, Quantity, SignalType, Signals, Target,
+    Activity, BitTiming, Hindrance, Input, Owner, Parameter, Pdo, PdoTable, Period, SignalType, Signals,
+    Target,
 };
 use edskit_lint::Severity;
 
-pub(super) fn of(reading: &Reading, table: &PdoTable) -> Vec<Problem> {
+/// `told` are the identifiers of which another finding says already how they are written.
+pub(super) fn of(reading: &Reading, table: &PdoTable, told: &[Parameter]) -> Vec<Problem> {
     let mut problems = Vec::new();
     engine_stop(reading, &mut problems);
     let switch_functions: Vec<Input> = reading.configuration.switch_functions().collect();
@@ -22,7 +25,9 @@ pub(super) fn of(reading: &Reading, table: &PdoTable) -> Vec<Problem> {
     times(reading, table, &mut problems);
     partner(reading, &mut problems);
     units(reading, &mut problems);
-    decimal_identifiers(reading, &mut problems);
+    bit_timings(reading, &mut problems);
+    uncompared_bit_timings(reading, &mut problems);
+    decimal_identifiers(reading, told, &mut problems);
     problems
 }
 
@@ -198,59 +203,95 @@ fn partner(reading: &Reading, problems: &mut Vec<Problem>) {
     }
 }
 
-/// What must be equal in both units, where the file gives both (7.1.1, 7.2.1; GW-CFG-31 to GW-CFG-34).
+/// What must be equal in both units, and whether they communicate (7.1.1, 7.2.1; GW-CFG-31 to GW-CFG-34, GW-CFG-46).
 fn units(reading: &Reading, problems: &mut Vec<Problem>) {
-    let find =
-        |owner, number| Parameter::find(owner, number).filter(|found| reading.setting(*found).is_some());
-    let pairs = [(401, 403, Severity::Error), (402, 401, Severity::Error), (400, 400, Severity::Warning)];
-    for (own, others, severity) in pairs {
-        let (Some(own), Some(other)) = (find(Owner::Gateway, own), find(Owner::Governor, others)) else {
-            continue;
-        };
-        let [here, there] = [own, other].map(|parameter| reading.configuration.get(parameter));
-        if here != there {
-            let message = format!(
-                "{own} of the gateway is {}, and {other} of the governor is {}",
-                own.amount(here),
-                other.amount(there)
-            );
-            let problem =
-                Problem::new(problem::UNITS_DISAGREE, reading.label(own, "in the gateway"), message);
-            let problem = problem.labels([reading.label(other, "in the governor")]);
-            problems.push(problem.severity(severity).help("write the same value into both"));
-        }
+    for hindrance in reading.configuration.hindrances() {
+        problems.push(match hindrance {
+            Hindrance::NodeNumbers { gateway, governor } | Hindrance::BitRates { gateway, governor } => {
+                disagreement(reading, gateway, governor)
+                    .help(format!("write the same value into both; {NO_CANOPEN}"))
+            }
+            Hindrance::SwitchedOff(parameter) => {
+                let peer = match parameter.owner() {
+                    Owner::Gateway => "governor",
+                    Owner::Governor => "gateway",
+                };
+                let message = format!("{parameter} switches the communication with the {peer} off");
+                let problem = Problem::new(problem::COMMUNICATION_OFF, reading.label(parameter, ""), message);
+                problem.help(format!("{NO_CANOPEN}; write 1"))
+            }
+        });
     }
-    for (owner, number, peer) in [(Owner::Gateway, 4400, "governor"), (Owner::Governor, 4406, "gateway")] {
-        let Some(parameter) = find(owner, number) else { continue };
-        if reading.configuration.get(parameter) == 0 {
-            let message = format!("{parameter} switches the communication with the {peer} off");
-            let problem = Problem::new(problem::COMMUNICATION_OFF, reading.label(parameter, ""), message);
-            problems.push(problem.help("without it there is no initialisation and no CANopen; write 1"));
-        }
+    // All participants should have one delay; without it they initialise each other nevertheless.
+    let delays = [Owner::Gateway, Owner::Governor].map(|owner| Parameter::find(owner, 400));
+    if let [Some(gateway), Some(governor)] = delays
+        && [gateway, governor].iter().all(|delay| reading.setting(*delay).is_some())
+        && reading.configuration.get(gateway) != reading.configuration.get(governor)
+    {
+        let problem = disagreement(reading, gateway, governor).severity(Severity::Warning);
+        problems.push(problem.help("write the same value into both"));
     }
 }
 
-fn decimal_identifiers(reading: &Reading, problems: &mut Vec<Problem>) {
-    let is_decimal = |setting: &&Setting| {
-        // Up to 9 both notations are the same.
-        setting.parameter.quantity() == Quantity::Identifier
-            && setting.radix == 10
-            && reading.configuration.get(setting.parameter) > 9
-    };
-    for setting in reading.settings().iter().filter(is_decimal) {
-        let value = reading.configuration.get(setting.parameter);
-        let amount = setting.parameter.amount(value);
-        let message = format!("{} is written in decimal digits, and is {amount}", setting.parameter);
-        let hexadecimal = i32::from_str_radix(&value.to_string(), 16).ok();
-        let hexadecimal = hexadecimal.filter(|number| setting.parameter.values().contain(*number));
-        let other = match hexadecimal {
-            Some(number) => {
-                format!(", or `0x{number:X}` if the {number:X}h of the manual's notation is meant")
-            }
-            None => String::new(),
+const NO_CANOPEN: &str = "without it there is no initialisation and no CANopen";
+
+/// Two parameters that should be equal and are not, at the one that the file sets.
+fn disagreement(reading: &Reading, gateway: Parameter, governor: Parameter) -> Problem {
+    let is = |parameter: Parameter| parameter.amount(reading.configuration.get(parameter));
+    let [gateway, governor] = [gateway, governor].map(|parameter| reading.as_set(parameter));
+    let message = format!(
+        "{gateway} of the gateway is {}, and {governor} of the governor is {}",
+        is(gateway),
+        is(governor)
+    );
+    let mut labels = [(gateway, "in the gateway"), (governor, "in the governor")];
+    labels.sort_by_key(|(parameter, _)| reading.setting(*parameter).is_none());
+    let [place, other] = labels.map(|(parameter, text)| reading.label(parameter, text));
+    Problem::new(problem::UNITS_DISAGREE, place, message).labels([other])
+}
+
+/// GW-CFG-47.
+fn bit_timings(reading: &Reading, problems: &mut Vec<Problem>) {
+    for timing in BitTiming::ALL.iter().filter(|timing| !timing.is_manual(&reading.configuration)) {
+        let set: Vec<Parameter> =
+            timing.segments().filter(|segment| reading.configuration.get(*segment) != 0).collect();
+        let [first, others @ ..] = &set[..] else { continue };
+        let switch = reading.as_set(timing.switch);
+        let all = match others.last() {
+            Some(last) => format!("P{} to P{} have", first.number(), last.number()),
+            None => format!("{first} has"),
         };
-        let problem =
-            Problem::new(problem::DECIMAL_IDENTIFIER, reading.label(setting.parameter, ""), message);
-        problems.push(problem.help(format!("write `0x{value:X}`{other}")));
+        let message = format!("{all} no effect, because {switch} is 0");
+        let place = reading.label(*first, "for a manual bit timing");
+        let problem = Problem::new(problem::UNUSED_BIT_TIMING, place, message);
+        let problem = problem.labels(others.iter().map(|other| reading.label(*other, "")));
+        let problem = problem.labels([reading.label(switch, "its switch")]);
+        problems.push(problem.help(format!("write `{} = 1`, or 0 into the segments", switch.number())));
     }
+}
+
+/// GW-NOTE-48.
+fn uncompared_bit_timings(reading: &Reading, problems: &mut Vec<Problem>) {
+    let timings = [BitTiming::OF_GATEWAY, BitTiming::OF_GOVERNOR];
+    let manual = timings.map(|timing| timing.is_manual(&reading.configuration));
+    let place = |timing: &BitTiming| reading.label(timing.switch, "a manual bit timing");
+    let help = "both must come to one bit rate, which cannot be computed; compare the two by hand";
+    let values = |timing: &BitTiming| {
+        timing.segments().take(5).map(|segment| reading.configuration.get(segment)).collect::<Vec<_>>()
+    };
+    let [of_gateway, of_governor] = &timings;
+    let (timing, message) = match manual {
+        [true, false] => (of_gateway, "the gateway alone has a manual bit timing on the HEINZMANN bus"),
+        [false, true] => (of_governor, "the governor alone has a manual bit timing on the HEINZMANN bus"),
+        [true, true] if values(of_gateway) != values(of_governor) => {
+            (of_gateway, "the manual bit timings of gateway and governor differ")
+        }
+        _ => return,
+    };
+    problems.push(Problem::new(problem::UNCOMPARED_BIT_TIMING, place(timing), message).help(help));
+}
+
+fn decimal_identifiers(reading: &Reading, told: &[Parameter], problems: &mut Vec<Problem>) {
+    let untold = Decimal::all(reading).filter(|decimal| !told.contains(&decimal.parameter));
+    problems.extend(untold.map(|decimal| decimal.problem(reading.label(decimal.parameter, ""))));
 }

@@ -1,5 +1,6 @@
 //! What the gateway finds at its initialisation (7.3), and what CiA 301 says beyond that.
 
+use super::decimal::Decimal;
 use super::problem::{self, Problem};
 use super::reading::Reading;
 use edskit_devices::gateway::{
@@ -41,12 +42,15 @@ pub(super) fn restricted(reading: &Reading, table: &PdoTable) -> Vec<Problem> {
             let message =
                 format!("{} has the identifier {}, which CiA 301 restricts", pdo.party(), conflict.can_id);
             let place = reading.label(pdo.identifier_parameter(), format!("in {range}"));
-            let help = format!(
-                "the gateway accepts it, but other devices on the bus may use it; {}",
-                instead(table, pdo)
-            );
             let problem = Problem::new(problem::RESTRICTED_CAN_ID, place, message);
-            Some(problem.labels(why_active(reading, pdo)).help(help))
+            let problem = problem.labels(why_active(reading, pdo));
+            let reason = "the gateway accepts it, but other devices on the bus may use it";
+            Some(match Decimal::of(reading, pdo.identifier_parameter()) {
+                Some(decimal) => {
+                    problem.help(format!("{}; {reason}", decimal.help_first())).decimals([decimal.parameter])
+                }
+                None => problem.help(format!("{reason}; {}", instead(table, pdo))),
+            })
         })
         .collect()
 }
@@ -78,7 +82,17 @@ fn refusal(reading: &Reading, table: &PdoTable, conflict: &Conflict) -> Option<P
     };
     let problem = Problem::new(problem::IDENTIFIER_CONFLICT, place, message);
     let problem = problem.labels(others).labels(why_active(reading, pdo));
-    Some(problem.help(format!("{}; {}", instead(table, pdo), consequence())))
+    // An identifier in decimal digits may be another one than it looks, so that a third one is no advice.
+    let parties = [Some(pdo), table.find(other)].into_iter().flatten();
+    let decimals: Vec<Decimal> =
+        parties.filter_map(|pdo| Decimal::of(reading, pdo.identifier_parameter())).collect();
+    let mut advice: Vec<String> =
+        decimals.iter().map(|decimal| format!("{}: {}", decimal.parameter, decimal.help_first())).collect();
+    if advice.is_empty() {
+        advice.push(instead(table, pdo));
+    }
+    let problem = problem.decimals(decimals.iter().map(|decimal| decimal.parameter));
+    Some(problem.help(format!("{}; {}", advice.join("; "), consequence())))
 }
 
 fn equal_node_ids(reading: &Reading, table: &PdoTable) -> Problem {

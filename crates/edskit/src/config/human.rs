@@ -17,6 +17,13 @@ pub(super) fn write(report: &Report, excerpts: &str, quiet: bool, out: &mut dyn 
             writeln!(out, "The PDOs and their identifiers are left out until every entry can be understood.")?
         }
     }
+    if let Some(reason) = &report.apart {
+        writeln!(
+            out,
+            "\nGateway and governor do not hear each other, so that there is no initialisation: {reason}."
+        )?;
+        return writeln!(out, "{}", summary(report));
+    }
     match report.is_accepted {
         Some(true) => writeln!(out, "\nThe gateway's own check at its initialisation passes.")?,
         Some(false) => writeln!(

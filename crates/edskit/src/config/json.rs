@@ -20,6 +20,8 @@ struct Output<'a> {
     findings: Vec<JsonFinding<'a>>,
     /// `null` if the file could not be read whole.
     accepted: Option<bool>,
+    /// Why there is no initialisation; `null` where there is one, and if the file could not be read whole.
+    apart: Option<&'a str>,
     configuration: Option<&'a View>,
 }
 
@@ -41,6 +43,7 @@ pub(super) fn write(report: &Report, name: &str, document: &Document, out: &mut 
         path: name,
         findings: report.problems.iter().map(|problem| finding(problem, document)).collect(),
         accepted: report.is_accepted,
+        apart: report.apart.as_deref(),
         configuration: report.view.as_ref(),
     };
     serde_json::to_writer_pretty(&mut *out, &output)?;

@@ -3,28 +3,35 @@
 mod advice;
 mod collisions;
 mod dcf;
+mod decimal;
 mod human;
 mod json;
 mod key;
+mod other_file;
 pub(crate) mod problem;
 mod reading;
 mod signals;
 mod syntax;
+mod table;
+mod typed;
 mod value;
 mod view;
 mod words;
 
+pub(crate) use key::{Place, unknown_in_one};
+pub(crate) use other_file::instead_of_scenario;
 pub(crate) use problem::Problem;
 pub(crate) use reading::{entries, parameters_of, span};
 pub(crate) use signals::KnownSignals;
 pub(crate) use syntax::{table_of, text_of};
+pub(crate) use typed::amend;
 pub(crate) use value::what_is;
-pub(crate) use words::{content, milliseconds, why};
+pub(crate) use words::{apart, content, milliseconds, why};
 
 use crate::cli::{Color, ConfigArguments, ConfigCheckArguments, ConfigCommand, ConfigFormat};
 use crate::lint::human::{Style, excerpts};
 use crate::{Exit, Streams, files};
-use edskit_devices::gateway::{Configuration, PdoTable};
+use edskit_devices::gateway::{Configuration, Parameter, PdoTable};
 use edskit_model::Document;
 use reading::Reading;
 use std::io::{self, Write};
@@ -35,6 +42,8 @@ pub(crate) fn run(arguments: &ConfigArguments, streams: &mut Streams) -> io::Res
     match &arguments.command {
         ConfigCommand::Check(arguments) => check(arguments, streams),
         ConfigCommand::Dcf(arguments) => dcf::run(arguments, streams),
+        ConfigCommand::Import(arguments) => table::import(arguments, streams),
+        ConfigCommand::Export(arguments) => table::export(arguments, streams),
     }
 }
 
@@ -44,6 +53,8 @@ struct Report {
     problems: Vec<Problem>,
     /// Whether the initialisation of the gateway succeeds; `None` if the file could not be read whole.
     is_accepted: Option<bool>,
+    /// Why there is no initialisation; `None` where there is one.
+    apart: Option<String>,
     /// `None` likewise.
     view: Option<View>,
     /// `None` likewise.
@@ -61,22 +72,28 @@ impl Report {
     fn of(bytes: &[u8]) -> Self {
         let mut reading = Reading::of(bytes);
         let is_complete = reading.is_complete();
-        let (is_accepted, view) = match is_complete {
+        let (is_accepted, apart, view) = match is_complete {
             true => {
                 let table = PdoTable::new(&reading.configuration, &reading.signals);
                 let refused = collisions::refused(&reading, &table);
-                let is_accepted = refused.is_empty();
-                let judged =
-                    [refused, collisions::restricted(&reading, &table), advice::of(&reading, &table)];
+                let apart = words::apart(&reading.configuration);
+                let is_accepted = refused.is_empty() && apart.is_none();
+                let restricted = collisions::restricted(&reading, &table);
+                let told: Vec<Parameter> = refused
+                    .iter()
+                    .chain(&restricted)
+                    .flat_map(|problem| problem.decimals.iter().copied())
+                    .collect();
+                let judged = [refused, restricted, advice::of(&reading, &table, &told)];
                 reading.problems.extend(judged.into_iter().flatten());
-                (Some(is_accepted), Some(View::new(&reading, &table)))
+                (Some(is_accepted), apart, Some(View::new(&reading, &table)))
             }
             // A value that is missing because it could not be read would make others look wrong.
-            false => (None, None),
+            false => (None, None, None),
         };
         let Reading { configuration, signals, problems, .. } = reading;
         let parameters = is_complete.then_some(Parameters { configuration, signals });
-        Self { problems: in_order(problems), is_accepted, view, parameters }
+        Self { problems: in_order(problems), is_accepted, apart, view, parameters }
     }
 }
 

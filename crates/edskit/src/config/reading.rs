@@ -1,10 +1,16 @@
 //! A parameter file, read: which parameters it sets to what, and where.
 
+use super::decimal::Decimal;
+use super::key::Place;
+use super::other_file;
 use super::problem::{self, Problem};
 use super::signals::{Declared, KnownSignals, TYPES};
+use super::typed::amend;
 use super::{key, syntax, value};
 use crate::printable;
-use edskit_devices::gateway::{Configuration, Owner, Parameter};
+use edskit_devices::gateway::{
+    Configuration, NamedSignals, Owner, Parameter, SignalType, Signals as _, signal_name,
+};
 use edskit_lint::{Label, MOST_FINDINGS, Severity, nearest};
 use edskit_model::Span;
 use std::ops::Range;
@@ -35,10 +41,20 @@ pub(crate) struct Setting {
     pub(super) span: Span,
     /// How a whole number is written.
     pub(super) radix: u32,
+    /// As the device holds it.
+    pub(super) value: i32,
 }
 
 /// Entries of a table in the order of the file.
 pub(crate) type Entries<'t, 'i> = Vec<(&'t str, Span, &'t Spanned<DeValue<'i>>)>;
+
+impl Setting {
+    /// What there is to say of an identifier that is not written in hexadecimal digits.
+    pub(crate) fn decimal(&self) -> Option<Problem> {
+        Decimal::of_setting(self)
+            .map(|decimal| decimal.problem(Label { span: self.span, text: String::new() }))
+    }
+}
 
 impl Reading {
     pub(super) fn of(bytes: &[u8]) -> Self {
@@ -54,6 +70,7 @@ impl Reading {
             Ok(text) => reading.read(text),
             Err(problem) => reading.problems.push(problem),
         }
+        reading.problems = key::unknown_in_one(std::mem::take(&mut reading.problems));
         reading
     }
 
@@ -62,8 +79,14 @@ impl Reading {
         self.problems.iter().all(|problem| problem.severity < Severity::Error)
     }
 
+    /// Where a parameter is set, under whichever of its numbers.
     pub(super) fn setting(&self, parameter: Parameter) -> Option<&Setting> {
-        self.settings.iter().find(|setting| setting.parameter == parameter)
+        self.settings.iter().find(|setting| setting.parameter.main() == parameter.main())
+    }
+
+    /// A parameter under the number that the file gives it.
+    pub(super) fn as_set(&self, parameter: Parameter) -> Parameter {
+        self.setting(parameter).map_or(parameter, |setting| setting.parameter)
     }
 
     /// What the file sets, in its order.
@@ -89,15 +112,23 @@ impl Reading {
     }
 
     fn read(&mut self, text: &str) {
+        if let Some(problem) = other_file::instead_of_parameters(text) {
+            return self.problems.push(problem);
+        }
+        let amended = amend(text, Place::File, &mut self.problems);
+        let text = amended.text.as_ref();
         let Some(root) = syntax::table_of(text, &mut self.problems) else { return };
         let Some(device) = root.get_ref().get("device") else {
+            if amended.names_device {
+                return self.read_tables(root.get_ref(), text);
+            }
             let problem = Problem::at(problem::UNKNOWN_DEVICE, first_line(text), "the file names no device");
             self.problems.push(problem.help(format!("write `device = \"{DEVICE}\"` in the first line")));
-            return self.read_tables(root.get_ref());
+            return self.read_tables(root.get_ref(), text);
         };
         self.start = span(device.span());
         match device.get_ref() {
-            DeValue::String(name) if name == DEVICE => self.read_tables(root.get_ref()),
+            DeValue::String(name) if name == DEVICE => self.read_tables(root.get_ref(), text),
             other => {
                 let message = match other {
                     DeValue::String(name) => format!("the parameters of a device `{name}` are not known"),
@@ -109,7 +140,7 @@ impl Reading {
         }
     }
 
-    fn read_tables(&mut self, root: &DeTable<'_>) {
+    fn read_tables(&mut self, root: &DeTable<'_>, text: &str) {
         for (name, key_span, value) in entries(root) {
             let owner = match name {
                 "device" => continue,
@@ -122,7 +153,7 @@ impl Reading {
             };
             self.tables[owner as usize] = Some(key_span);
             match value.get_ref() {
-                DeValue::Table(table) => self.read_parameters(owner, table),
+                DeValue::Table(table) => self.read_parameters(owner, table, text),
                 _ => {
                     let message = format!("`{name}` must be a table of parameters");
                     let problem = Problem::at(problem::WRONG_TYPE, span(value.span()), message);
@@ -133,13 +164,13 @@ impl Reading {
         }
     }
 
-    fn read_parameters(&mut self, owner: Owner, table: &DeTable<'_>) {
+    fn read_parameters(&mut self, owner: Owner, table: &DeTable<'_>, text: &str) {
         let (signals, parameters): (Entries<'_, '_>, Entries<'_, '_>) =
             entries(table).into_iter().partition(|(name, ..)| owner == Owner::Governor && *name == "signals");
         for (_, _, value) in signals {
             self.read_signals(value);
         }
-        for (setting, value) in parameters_of(owner, parameters, &mut self.problems) {
+        for (setting, value) in parameters_of(owner, parameters, text, Place::File, &mut self.problems) {
             // It has been looked at whether the parameter can have the value.
             if self.configuration.set(setting.parameter, value).is_ok() {
                 self.settings.push(setting);
@@ -157,6 +188,7 @@ impl Reading {
         for (name, key_span, value) in entries(table) {
             match self.read_signal(name, key_span, value) {
                 Ok((number, declared)) => {
+                    self.problems.extend(bit_of_the_manual(number, &declared));
                     self.signals.declared.insert(number, declared);
                 }
                 Err(problem) => self.problems.push(problem),
@@ -182,7 +214,9 @@ impl Reading {
         let value_span = span(value.span());
         let examples = "write `\"u16\"`, or `{ name = \"Speed\", type = \"u16\" }`";
         let (name, type_word) = match value.get_ref() {
-            DeValue::String(word) => (None, Some((word.as_ref(), value_span))),
+            DeValue::String(word) => {
+                (key::name_of_signal(name).map(printable::line), Some((word.as_ref(), value_span)))
+            }
             DeValue::Table(table) => signal_of_table(number, table)?,
             _ => {
                 let problem = invalid(value_span, format!("this says nothing of parameter {number}"));
@@ -197,24 +231,38 @@ impl Reading {
             let problem = invalid(word_span, format!("`{word}` is no type of a parameter"));
             return Err(problem.help("write `u8`, `i8`, `u16`, `i16` or `bit`"));
         };
-        Ok((number, Declared { name, signal_type: *signal_type, span: key_span }))
+        Ok((number, Declared { name, signal_type: *signal_type, span: key_span, type_span: word_span }))
     }
 }
 
-/// The parameters that a table sets, and their values, in its order; what is wrong with the others goes to `problems`.
+/// A description that makes more of a single bit than the manual does; the bit stays one (GW-PDO-19).
+fn bit_of_the_manual(number: u16, declared: &Declared) -> Option<Problem> {
+    let is_bit = NamedSignals.signal_type(number) == Some(SignalType::Bit);
+    let name = signal_name(number).filter(|_| is_bit && declared.signal_type != SignalType::Bit)?;
+    let message =
+        format!("{number} {name} is a single bit, as the manual of the gateway says, whatever stands here");
+    let problem = Problem::at(problem::INVALID_SIGNAL, declared.type_span, message);
+    let help = "a TPDO cannot carry it (4.1.2); leave the description out";
+    Some(problem.severity(Severity::Warning).help(help))
+}
+
+/// The parameters that a table of `text` sets, and their values, in its order; what is wrong with the others goes to
+/// `problems`.
 pub(crate) fn parameters_of(
     owner: Owner,
     entries: Entries<'_, '_>,
+    text: &str,
+    place: Place,
     problems: &mut Vec<Problem>,
 ) -> Vec<(Setting, i32)> {
     let mut keys: Vec<(Parameter, Span)> = Vec::new();
-    let mut settings = Vec::new();
+    let mut settings: Vec<(Setting, i32)> = Vec::new();
     for (name, key_span, value) in entries {
         if problems.len() >= MOST_FINDINGS {
             break;
         }
         let value_span = span(value.span());
-        let parameter = match key::parameter(owner, name, key_span) {
+        let parameter = match key::parameter(owner, name, key_span, place) {
             Ok(parameter) => parameter,
             Err(problem) => {
                 problems.push(problem);
@@ -228,18 +276,50 @@ pub(crate) fn parameters_of(
             continue;
         }
         keys.push((parameter, key_span));
-        match value::read(parameter, value.get_ref(), value_span) {
+        if let Some(problem) = dotted_key(parameter, value.get_ref(), key_span, text) {
+            problems.push(problem);
+            continue;
+        }
+        let written = text.get(value_span.range()).unwrap_or_default();
+        match value::read(parameter, value.get_ref(), value_span, written) {
             Ok(number) => {
                 let radix = match value.get_ref() {
                     DeValue::Integer(integer) => integer.radix(),
                     _ => 10,
                 };
-                settings.push((Setting { parameter, span: value_span, radix }, number));
+                let setting = Setting { parameter, span: value_span, radix, value: number };
+                match settings.iter().find(|(other, _)| other.parameter.main() == parameter.main()) {
+                    None => settings.push((setting, number)),
+                    Some((first, _)) if first.value == number => {}
+                    Some((first, _)) => problems.push(two_values(first, &setting)),
+                }
             }
             Err(problem) => problems.push(problem),
         }
     }
     settings
+}
+
+/// One parameter under two of its numbers, with two values (GW-NOTE-37).
+fn two_values(first: &Setting, second: &Setting) -> Problem {
+    let of =
+        |setting: &Setting| format!("{} is {}", setting.parameter, setting.parameter.amount(setting.value));
+    let message = format!("{}, and {}: the two are one parameter of the governor", of(first), of(second));
+    let problem = Problem::at(problem::DUPLICATE_KEY, second.span, message);
+    problem.label(first.span, "the first number").help("keep the one that your governor has")
+}
+
+/// A key in which a point stands between number and name: to TOML that is a table.
+fn dotted_key(parameter: Parameter, value: &DeValue<'_>, key_span: Span, text: &str) -> Option<Problem> {
+    let DeValue::Table(table) = value else { return None };
+    let [(name, _, value)] = entries(table)[..] else { return None };
+    let has_point = text.get(key_span.end as usize..).is_some_and(|rest| rest.trim_start().starts_with('.'));
+    let written = text.get(value.span()).filter(|_| has_point)?;
+    let number = parameter.number();
+    let message = format!("`{number}.{name}` is two keys to TOML, and no parameter");
+    let problem = Problem::at(problem::MANUAL_NOTATION, key_span, message);
+    let name = parameter.name().map(|own| format!(" {own}")).unwrap_or_default();
+    Some(problem.help(format!("write `\"{number}{name}\" = {written}`")))
 }
 
 /// Name and type of `{ name = .., type = .. }`, with the place of the type.

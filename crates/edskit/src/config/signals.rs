@@ -1,6 +1,6 @@
 //! The parameters of the governor that TPDOs can carry.
 
-use edskit_devices::gateway::{NAMED_SIGNALS, NamedSignals, SignalType, Signals};
+use edskit_devices::gateway::{NamedSignals, SignalType, Signals, signal_name};
 use edskit_model::Span;
 use std::collections::BTreeMap;
 
@@ -20,6 +20,8 @@ pub(super) struct Declared {
     pub(super) signal_type: SignalType,
     /// Where.
     pub(super) span: Span,
+    /// Where its type stands.
+    pub(super) type_span: Span,
 }
 
 /// What the file describes, besides what the manual names.
@@ -30,15 +32,14 @@ pub(crate) struct KnownSignals {
 
 impl KnownSignals {
     /// Whether anything is known of a parameter.
-    pub(super) fn knows(&self, number: u16) -> bool {
+    pub(crate) fn knows(&self, number: u16) -> bool {
         self.declared.contains_key(&number) || NamedSignals.signal_type(number).is_some()
     }
 
     /// The name, if one is known.
-    pub(crate) fn name(&self, number: u16) -> Option<&str> {
-        let named = || NAMED_SIGNALS.iter().find(|signal| signal.number == number).map(|signal| signal.name);
-        let declared = self.declared.get(&number).and_then(|declared| declared.name.as_deref());
-        declared.or_else(named)
+    pub(crate) fn name(&self, number: u16) -> Option<String> {
+        let declared = self.declared.get(&number).and_then(|declared| declared.name.clone());
+        declared.or_else(|| signal_name(number).map(|name| name.to_string()))
     }
 
     /// Number and name, as far as known.
@@ -55,6 +56,9 @@ impl Signals for KnownSignals {
     /// list the parameters of the governor, and a TPDO too many in the check is better than one too few.
     fn signal_type(&self, number: u16) -> Option<SignalType> {
         let declared = self.declared.get(&number).map(|declared| declared.signal_type);
-        Some(declared.or_else(|| NamedSignals.signal_type(number)).unwrap_or(SignalType::U16))
+        let named = NamedSignals.signal_type(number);
+        // A bit that the manual names stays one (GW-PDO-19); the types of the others are a choice.
+        let is_bit = named == Some(SignalType::Bit) && signal_name(number).is_some();
+        Some(declared.filter(|_| !is_bit).or(named).unwrap_or(SignalType::U16))
     }
 }

@@ -1,6 +1,7 @@
 //! Values of parameters.
 
 use super::problem::{self, Problem};
+use super::typed::number;
 use edskit_devices::gateway::{Parameter, Quantity, Values};
 use edskit_model::Span;
 use toml::de::DeValue;
@@ -8,8 +9,13 @@ use toml::de::DeValue;
 /// The most that a time in s is off from whole ms before it counts as finer.
 const ROUNDING: f64 = 1e-6;
 
-/// A value as the device holds it.
-pub(super) fn read(parameter: Parameter, value: &DeValue<'_>, span: Span) -> Result<i32, Problem> {
+/// A value as the device holds it. `written` is how the file writes it.
+pub(super) fn read(
+    parameter: Parameter,
+    value: &DeValue<'_>,
+    span: Span,
+    written: &str,
+) -> Result<i32, Problem> {
     let in_seconds = parameter.quantity() == Quantity::Seconds;
     let number = match value {
         DeValue::Integer(integer) => {
@@ -26,23 +32,23 @@ pub(super) fn read(parameter: Parameter, value: &DeValue<'_>, span: Span) -> Res
             }
             (milliseconds.abs() < f64::from(i32::MAX)).then_some(milliseconds.round() as i32)
         }
-        _ => return Err(wrong_type(parameter, value, span)),
+        _ => return Err(wrong_type(parameter, value, span, written)),
     };
-    match number.filter(|number| parameter.values().contain(*number)) {
-        Some(number) => Ok(number),
-        None => {
-            let message = match number {
-                Some(number) => format!("{parameter} cannot be {}", parameter.amount(number)),
-                None => format!("{parameter} cannot have this value"),
-            };
-            let help = allowed(parameter);
-            Err(Problem::at(problem::OUT_OF_RANGE, span, message).help(help))
-        }
-    }
+    let allowed = number.filter(|number| parameter.values().contain(*number));
+    allowed.ok_or_else(|| out_of_range(parameter, number, span))
+}
+
+/// A number that the parameter cannot be, where it is one that the device can hold.
+pub(super) fn out_of_range(parameter: Parameter, number: Option<i32>, span: Span) -> Problem {
+    let message = match number {
+        Some(number) => format!("{parameter} cannot be {}", parameter.amount(number)),
+        None => format!("{parameter} cannot have this value"),
+    };
+    Problem::at(problem::OUT_OF_RANGE, span, message).help(allowed(parameter))
 }
 
 /// What a parameter may be, identifiers as TOML writes them.
-fn allowed(parameter: Parameter) -> String {
+pub(super) fn allowed(parameter: Parameter) -> String {
     match (parameter.quantity(), parameter.values()) {
         (Quantity::Identifier, Values::Between(low, high)) => {
             format!("it may be 0x{low:03X} to 0x{high:03X}")
@@ -64,36 +70,28 @@ pub(crate) fn what_is(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-fn wrong_type(parameter: Parameter, value: &DeValue<'_>, span: Span) -> Problem {
+fn wrong_type(parameter: Parameter, value: &DeValue<'_>, span: Span, written: &str) -> Problem {
     let what = what_is(value);
     let wanted =
         if parameter.quantity() == Quantity::Seconds { "a number of seconds" } else { "a whole number" };
     let problem =
         Problem::at(problem::WRONG_TYPE, span, format!("{parameter} needs {wanted}, and this is {what}"));
-    match meant(parameter, value) {
-        Some(meant) => problem.help(format!("write `{meant}`")),
+    match meant(parameter, value, written) {
+        Some(meant) => problem.help(format!("write {meant}")),
         None => problem.help(allowed(parameter)),
     }
 }
 
 /// What was probably meant by a value of the wrong type.
-fn meant(parameter: Parameter, value: &DeValue<'_>) -> Option<String> {
-    match value {
-        DeValue::Boolean(flag) if !parameter.values().contain(2) => Some(u8::from(*flag).to_string()),
-        DeValue::Float(float) => {
-            let digits = float.as_str().strip_suffix(".0")?;
-            digits.parse::<i32>().ok().map(|number| number.to_string())
-        }
-        DeValue::String(text) if parameter.quantity() == Quantity::Identifier => {
-            let digits = text.trim().trim_end_matches(['h', 'H']);
-            let digits = digits.strip_prefix("0x").unwrap_or(digits);
-            let number = i32::from_str_radix(digits, 16).ok()?;
-            parameter.values().contain(number).then(|| format!("0x{number:X}"))
-        }
-        DeValue::String(text) => {
-            let number = text.trim().parse().ok()?;
-            parameter.values().contain(number).then(|| number.to_string())
-        }
-        _ => None,
+fn meant(parameter: Parameter, value: &DeValue<'_>, written: &str) -> Option<String> {
+    if matches!(value, DeValue::Array(_) | DeValue::Table(_) | DeValue::Datetime(_)) {
+        return None;
     }
+    let meanings = number::read(parameter, written).meanings;
+    let texts = meanings.iter().map(|meaning| {
+        let text = format!("`{}`", meaning.toml(parameter));
+        if meaning.only_if.is_empty() { text } else { format!("{text} if {}", meaning.only_if) }
+    });
+    let texts: Vec<String> = texts.collect();
+    (!texts.is_empty()).then(|| texts.join(", or "))
 }

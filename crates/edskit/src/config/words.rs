@@ -1,11 +1,25 @@
 //! Words for PDOs: what they carry, and why they are active or not.
 
 use super::signals::KnownSignals;
-use edskit_devices::gateway::{Activity, Configuration, Parameter, Pdo, Source};
+use edskit_devices::gateway::{Activity, Configuration, Hindrance, Parameter, Pdo, Source};
 
 /// Milliseconds with as many digits as they need.
 pub(crate) fn milliseconds(micros: u32) -> String {
     (f64::from(micros) / 1000.0).to_string()
+}
+
+/// Why gateway and governor do not hear each other with these parameters; `None` where they do (GW-CFG-48).
+pub(crate) fn apart(configuration: &Configuration) -> Option<String> {
+    let is =
+        |parameter: Parameter| format!("{parameter} is {}", parameter.amount(configuration.get(parameter)));
+    let reasons = configuration.hindrances().map(|hindrance| match hindrance {
+        Hindrance::SwitchedOff(parameter) => is(parameter),
+        Hindrance::NodeNumbers { gateway, governor } | Hindrance::BitRates { gateway, governor } => {
+            format!("{} in the gateway, and {} in the governor", is(gateway), is(governor))
+        }
+    });
+    let reasons: Vec<String> = reasons.collect();
+    (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
 /// What a word of a PDO is.

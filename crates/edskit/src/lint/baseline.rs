@@ -1,13 +1,15 @@
 //! Findings that a team knows already, so that only new ones are shown.
 
-use super::report::FileReport;
-use edskit_lint::Finding;
+use crate::files::another_own_file;
+use crate::paths;
+use edskit_lint::{Finding, RuleSet};
 use edskit_model::Datasheet;
+use edskit_model::own_file::OwnFile;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf, absolute};
+use std::path::{Path, PathBuf};
 
 const VERSION: u32 = 1;
 
@@ -53,11 +55,19 @@ struct Written {
 
 /// A baseline file.
 pub(crate) struct Baseline {
+    path: PathBuf,
     folder: PathBuf,
+    /// For each file, by its path from the folder, what is known of it and how often it occurs.
     known: BTreeMap<String, BTreeMap<Fingerprint, usize>>,
 }
 
 impl Baseline {
+    /// One that knows nothing yet.
+    pub(crate) fn new(path: &Path) -> Self {
+        let folder = paths::folder(path.parent().unwrap_or(Path::new("")));
+        Self { path: path.to_path_buf(), folder, known: BTreeMap::new() }
+    }
+
     /// Reads a baseline; the error says what is wrong with it.
     pub(crate) fn read(path: &Path) -> Result<Self, String> {
         let name = path.display();
@@ -67,6 +77,9 @@ impl Baseline {
             }
             _ => format!("{name}: {error}"),
         })?;
+        if let Some(reason) = another_own_file(&text, OwnFile::Baseline) {
+            return Err(format!("{name}: {reason}"));
+        }
         let written: Written =
             serde_json::from_slice(&text).map_err(|error| format!("{name}: this is no baseline: {error}"))?;
         if written.version != VERSION {
@@ -75,10 +88,21 @@ impl Baseline {
                 written.version
             ));
         }
-        let counts =
-            |known: Vec<Known>| known.into_iter().map(|known| (known.fingerprint, known.count)).collect();
-        let known = written.files.into_iter().map(|(file, known)| (file, counts(known))).collect();
-        Ok(Self { folder: folder_of(path), known })
+        let mut baseline = Self::new(path);
+        for (file, known) in written.files {
+            // A path that was written whole is the same file.
+            let key = baseline.key(&baseline.folder.join(file));
+            let counts = baseline.known.entry(key).or_default();
+            for known in known {
+                *counts.entry(known.fingerprint).or_default() += known.count;
+            }
+        }
+        Ok(baseline)
+    }
+
+    /// The baseline's own path, as it was given.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Takes the known findings of a file out, with their fingerprints, and says how many those were.
@@ -88,7 +112,7 @@ impl Baseline {
         findings: &mut Vec<Finding>,
         fingerprints: &mut Vec<Fingerprint>,
     ) -> usize {
-        let Some(known) = self.known.get(&relative(&self.folder, file)) else { return 0 };
+        let Some(known) = self.known.get(&self.key(Path::new(file))) else { return 0 };
         let mut left = known.clone();
         let is_new = |fingerprint: &Fingerprint| match left.get_mut(fingerprint) {
             Some(count) if *count > 0 => {
@@ -104,26 +128,54 @@ impl Baseline {
         before - findings.len()
     }
 
-    /// Writes everything that was found as known.
-    pub(crate) fn write(path: &Path, files: &[FileReport]) -> io::Result<usize> {
-        let folder = folder_of(path);
-        let mut written = Written { version: VERSION, files: BTreeMap::new() };
-        let mut total = 0;
-        for file in files.iter().filter(|file| !file.fingerprints().is_empty()) {
-            let mut counts: BTreeMap<&Fingerprint, usize> = BTreeMap::new();
-            for fingerprint in file.fingerprints() {
-                *counts.entry(fingerprint).or_default() += 1;
-                total += 1;
-            }
-            let known = counts
-                .into_iter()
-                .map(|(fingerprint, count)| Known { fingerprint: fingerprint.clone(), count });
-            written.files.insert(relative(&folder, &file.name), known.collect());
+    /// Puts what was found in a file in the place of what was known of it. What is known of rules that did not run stays.
+    pub(crate) fn replace(&mut self, file: &str, found: &[Fingerprint], rules: &RuleSet) {
+        let key = self.key(Path::new(file));
+        let ran: HashSet<&str> = rules.enabled().map(|rule| rule.code).collect();
+        let mut counts = self.known.remove(&key).unwrap_or_default();
+        counts.retain(|fingerprint, _| !ran.contains(fingerprint.rule.as_str()));
+        for fingerprint in found {
+            *counts.entry(fingerprint.clone()).or_default() += 1;
         }
-        let mut text = serde_json::to_vec_pretty(&written)?;
+        if !counts.is_empty() {
+            self.known.insert(key, counts);
+        }
+    }
+
+    /// Takes the files out that are gone, and says how many those were.
+    pub(crate) fn prune(&mut self) -> usize {
+        let before = self.known.len();
+        let folder = &self.folder;
+        self.known.retain(|file, _| folder.join(file).exists());
+        before - self.known.len()
+    }
+
+    /// How many findings are known.
+    pub(crate) fn len(&self) -> usize {
+        self.known.values().flat_map(BTreeMap::values).sum()
+    }
+
+    /// Writes the file.
+    pub(crate) fn write(&self) -> io::Result<()> {
+        let known = |counts: &BTreeMap<Fingerprint, usize>| {
+            let known = |(fingerprint, count): (&Fingerprint, &usize)| Known {
+                fingerprint: fingerprint.clone(),
+                count: *count,
+            };
+            counts.iter().map(known).collect()
+        };
+        let files = self.known.iter().map(|(file, counts)| (file.clone(), known(counts))).collect();
+        let mut text = serde_json::to_vec_pretty(&Written { version: VERSION, files })?;
         text.push(b'\n');
-        fs::write(path, text)?;
-        Ok(total)
+        let named = |error: io::Error| {
+            io::Error::new(error.kind(), format!("{}: cannot be written: {error}", self.path.display()))
+        };
+        fs::write(&self.path, text).map_err(named)
+    }
+
+    /// A file's path from the baseline's folder, so that a checkout may stand anywhere.
+    fn key(&self, file: &Path) -> String {
+        paths::text(&paths::relative(&self.folder, &paths::whole(file)))
     }
 }
 
@@ -131,15 +183,4 @@ impl Baseline {
 fn retain<T>(items: &mut Vec<T>, marks: &[bool]) {
     let mut marks = marks.iter();
     items.retain(|_| marks.next().copied().unwrap_or(true));
-}
-
-fn folder_of(path: &Path) -> PathBuf {
-    absolute(path).ok().and_then(|path| path.parent().map(Path::to_path_buf)).unwrap_or_default()
-}
-
-/// A file's path from the baseline's folder, so that a checkout may stand anywhere.
-fn relative(folder: &Path, file: &str) -> String {
-    let whole = absolute(file).unwrap_or_else(|_| PathBuf::from(file));
-    let path = whole.strip_prefix(folder).unwrap_or(&whole);
-    path.to_string_lossy().replace(std::path::MAIN_SEPARATOR, "/")
 }

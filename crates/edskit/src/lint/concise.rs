@@ -1,16 +1,27 @@
 //! One line for each finding, as compilers print them.
 
-use super::report::Report;
+use super::format::Format;
+use super::report::{FileReport, Summary};
 use std::io::{self, Write};
 
-pub(super) fn write(report: &Report, quiet: bool, out: &mut dyn Write) -> io::Result<()> {
-    for (file, finding) in report.findings() {
-        let place = finding.region().start;
-        writeln!(
-            out,
-            "{}:{place}: {}[{}] {}",
-            file.name, finding.severity, finding.rule.code, finding.message
-        )?;
+pub(super) struct Concise {
+    pub(super) quiet: bool,
+}
+
+impl Format for Concise {
+    fn file(&mut self, file: &FileReport, out: &mut dyn Write) -> io::Result<()> {
+        for finding in file.findings() {
+            let place = finding.region().start;
+            writeln!(
+                out,
+                "{}:{place}: {}[{}] {}",
+                file.name, finding.severity, finding.rule.code, finding.message
+            )?;
+        }
+        Ok(())
     }
-    if quiet { Ok(()) } else { writeln!(out, "{}", report.summary()) }
+
+    fn end(&mut self, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+        if self.quiet { Ok(()) } else { writeln!(out, "{summary}") }
+    }
 }

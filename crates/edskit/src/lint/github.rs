@@ -1,37 +1,46 @@
 //! Workflow commands of GitHub Actions, which become annotations.
 
-use super::report::Report;
+use super::format::Format;
+use super::report::{FileReport, Summary};
 use edskit_lint::Severity;
 use std::io::{self, Write};
 
-pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    for (file, finding) in report.findings() {
-        let command = match finding.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Info => "notice",
-        };
-        let region = finding.region();
-        let mut message = finding.message.clone();
-        if let Some(help) = &finding.help {
-            message = format!("{message}\n{help}");
+pub(super) struct Github;
+
+impl Format for Github {
+    fn file(&mut self, file: &FileReport, out: &mut dyn Write) -> io::Result<()> {
+        for finding in file.findings() {
+            let command = match finding.severity {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Info => "notice",
+            };
+            let region = finding.region();
+            let mut message = finding.message.clone();
+            if let Some(help) = &finding.help {
+                message = format!("{message}\n{help}");
+            }
+            writeln!(
+                out,
+                "::{command} file={},line={},col={},endLine={},endColumn={},title={}::{}",
+                property(&file.name),
+                region.start.line,
+                region.start.column,
+                region.end.line,
+                region.end.column,
+                property(&format!("{} {}", finding.rule.code, finding.rule.name)),
+                data(&message),
+            )?;
         }
-        writeln!(
-            out,
-            "::{command} file={},line={},col={},endLine={},endColumn={},title={}::{}",
-            property(&file.name),
-            region.start.line,
-            region.start.column,
-            region.end.line,
-            region.end.column,
-            property(&format!("{} {}", finding.rule.code, finding.rule.name)),
-            data(&message),
-        )?;
+        Ok(())
     }
-    for failure in report.all_failures() {
-        writeln!(out, "::error title=edskit::{}", data(failure))?;
+
+    fn end(&mut self, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+        for failure in &summary.failures {
+            writeln!(out, "::error title=edskit::{}", data(failure))?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Escapes the text of a command.

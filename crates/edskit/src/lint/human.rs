@@ -1,6 +1,7 @@
 //! Findings as people read them: excerpts with labels, and a help line.
 
-use super::report::{Outcome, Report};
+use super::format::Format;
+use super::report::{FileReport, Outcome, Summary};
 use super::source::Source;
 use edskit_lint::{Applicability, Finding, Label, Severity};
 use edskit_model::Document;
@@ -16,13 +17,21 @@ pub(crate) struct Style {
     pub(crate) width: usize,
 }
 
-pub(super) fn write(report: &Report, quiet: bool, out: &mut dyn Write) -> io::Result<()> {
-    for file in &report.files {
-        if let Outcome::Linted { excerpts, .. } = &file.outcome {
-            out.write_all(excerpts.as_bytes())?;
+pub(super) struct Human {
+    pub(super) quiet: bool,
+}
+
+impl Format for Human {
+    fn file(&mut self, file: &FileReport, out: &mut dyn Write) -> io::Result<()> {
+        match &file.outcome {
+            Outcome::Linted { excerpts, .. } => out.write_all(excerpts.as_bytes()),
+            Outcome::Unreadable(_) => Ok(()),
         }
     }
-    if quiet { Ok(()) } else { writeln!(out, "{}", report.summary()) }
+
+    fn end(&mut self, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+        if self.quiet { Ok(()) } else { writeln!(out, "{summary}") }
+    }
 }
 
 /// What is shown of one problem.

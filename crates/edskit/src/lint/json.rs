@@ -1,6 +1,7 @@
 //! The JSON format. Its shape is versioned by the key `version`.
 
-use super::report::{FileReport, Outcome, Report};
+use super::format::Format;
+use super::report::{FileReport, Outcome, Summary};
 use crate::positions::{Located, Region};
 use edskit_lint::{Applicability, FileKind, Severity};
 use serde::Serialize;
@@ -10,19 +11,16 @@ use std::io::{self, Write};
 const VERSION: u32 = 1;
 
 #[derive(Serialize)]
-struct Output<'a> {
-    version: u32,
-    files: Vec<JsonFile<'a>>,
-    failures: Vec<&'a str>,
-    summary: JsonSummary,
-}
-
-#[derive(Serialize)]
 struct JsonSummary {
     files: usize,
     errors: usize,
     warnings: usize,
     infos: usize,
+    /// Findings that the baseline knows, which are not among the others.
+    known: usize,
+    fixed: usize,
+    /// Fixes that were left out, because they would have made a file worse.
+    fixes_left_out: usize,
 }
 
 #[derive(Serialize)]
@@ -76,21 +74,46 @@ struct JsonEdit<'a> {
     replacement: &'a str,
 }
 
-pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let summary = report.summary();
-    let output = Output {
-        version: VERSION,
-        files: report.files.iter().filter_map(file).collect(),
-        failures: report.all_failures().collect(),
-        summary: JsonSummary {
+#[derive(Default)]
+pub(super) struct Json {
+    /// Whether a file was written, so that the next one needs a comma.
+    has_file: bool,
+}
+
+impl Format for Json {
+    fn begin(&mut self, out: &mut dyn Write) -> io::Result<()> {
+        write!(out, "{{\n  \"version\": {VERSION},\n  \"files\": [")
+    }
+
+    fn file(&mut self, report: &FileReport, out: &mut dyn Write) -> io::Result<()> {
+        let Some(file) = file(report) else { return Ok(()) };
+        let separator = if std::mem::replace(&mut self.has_file, true) { "," } else { "" };
+        write!(out, "{separator}\n    {}", indented(&file, "\n    ")?)
+    }
+
+    fn end(&mut self, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+        let counts = JsonSummary {
             files: summary.files,
             errors: summary.errors,
             warnings: summary.warnings,
             infos: summary.infos,
-        },
-    };
-    serde_json::to_writer_pretty(&mut *out, &output)?;
-    writeln!(out)
+            known: summary.known,
+            fixed: summary.fixed,
+            fixes_left_out: summary.refused,
+        };
+        let close = if self.has_file { "\n  ]" } else { "]" };
+        writeln!(
+            out,
+            "{close},\n  \"failures\": {},\n  \"summary\": {}\n}}",
+            indented(&summary.failures, "\n  ")?,
+            indented(&counts, "\n  ")?
+        )
+    }
+}
+
+/// JSON whose lines begin with `line_break`. A line break in a text is escaped and stays.
+fn indented(value: &impl Serialize, line_break: &str) -> io::Result<String> {
+    Ok(serde_json::to_string_pretty(value)?.replace('\n', line_break))
 }
 
 fn file(file: &FileReport) -> Option<JsonFile<'_>> {

@@ -3,6 +3,7 @@
 mod baseline;
 mod concise;
 mod folder;
+mod format;
 mod github;
 pub(crate) mod human;
 pub(crate) mod json;
@@ -12,20 +13,22 @@ mod sarif;
 mod source;
 mod statistics;
 
-use crate::cli::{LintArguments, LintFormat};
+use crate::cli::{FailOn, LintArguments, LintFormat};
+use crate::difference;
 use crate::files::{self, Input};
 use crate::positions::Located;
 use crate::printable;
 use crate::profiles;
-use crate::settings::{Finder, Settings};
+use crate::settings::{self, Finder, Settings};
 use crate::{Exit, Streams};
 use baseline::{Baseline, Fingerprint};
-use edskit_lint::{Applicability, FileKind, Finding, Linter, Profile, RuleSet, UnknownRule};
+use edskit_lint::{Applicability, FileKind, Finding, Fixed, Linter, Profile, RuleSet, Severity, UnknownRule};
 use edskit_model::{Datasheet, Document};
 use folder::Folder;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::prelude::*;
-use report::{FileReport, Fixes, Outcome, Report};
+use report::{FileReport, Fixes, Outcome, Summary};
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -35,81 +38,247 @@ use std::sync::Arc;
 const FILES_WORTH_A_BAR: usize = 50;
 
 pub(crate) fn run(arguments: &LintArguments, streams: &mut Streams) -> io::Result<Exit> {
+    match try_run(arguments, streams) {
+        Err(Stopped::Refused(reason)) => {
+            streams.complain(format_args!("{reason}"));
+            Ok(Exit::Failed)
+        }
+        Err(Stopped::Broken(error)) => Err(error),
+        Ok(exit) => Ok(exit),
+    }
+}
+
+/// Why a run ended before its end.
+enum Stopped {
+    /// Something asked for cannot be done.
+    Refused(String),
+    /// Something could not be read or written.
+    Broken(io::Error),
+}
+
+impl From<String> for Stopped {
+    fn from(reason: String) -> Self {
+        Self::Refused(reason)
+    }
+}
+
+impl From<io::Error> for Stopped {
+    fn from(error: io::Error) -> Self {
+        Self::Broken(error)
+    }
+}
+
+fn try_run(arguments: &LintArguments, streams: &mut Streams) -> Result<Exit, Stopped> {
     if arguments.statistics && !matches!(arguments.format, LintFormat::Human | LintFormat::Json) {
-        streams.complain(format_args!("--statistics goes with --format human or json"));
-        return Ok(Exit::Failed);
+        return Err("--statistics goes with --format human or json".to_owned().into());
     }
     if arguments.unsafe_fixes && !arguments.fix && !arguments.diff {
-        streams.complain(format_args!("--unsafe-fixes goes with --fix or --diff"));
-        return Ok(Exit::Failed);
+        return Err("--unsafe-fixes goes with --fix or --diff".to_owned().into());
     }
     let found = files::find(&arguments.paths, streams)?;
     if arguments.fix && found.inputs.iter().any(|input| matches!(input, Input::Stdin(_))) {
-        streams.complain(format_args!("--fix cannot change standard input; --diff shows what it would do"));
-        return Ok(Exit::Failed);
+        return Err("--fix cannot change standard input; --diff shows what it would do".to_owned().into());
     }
-    let jobs = match jobs(found.inputs, arguments) {
-        Ok(jobs) => jobs,
-        Err(reason) => {
-            streams.complain(format_args!("{reason}"));
-            return Ok(Exit::Failed);
-        }
-    };
-    let baseline = match &arguments.baseline {
-        Some(path) if !arguments.update_baseline => match Baseline::read(path) {
-            Ok(baseline) => Some(baseline),
-            Err(reason) => {
-                streams.complain(format_args!("{reason}"));
-                return Ok(Exit::Failed);
-            }
-        },
-        _ => None,
-    };
-    let to_terminal = streams.is_terminal && arguments.output.is_none();
-    let style = human::Style { color: arguments.color.is_wanted(to_terminal), width: streams.width };
-    let progress = progress(jobs.len(), arguments, streams);
-    let files = jobs
-        .par_iter()
-        .map(|job| {
-            let report = lint_file(job, baseline.as_ref(), arguments, style);
-            progress.inc(1);
-            report
-        })
-        .collect();
-    progress.finish_and_clear();
-    let report = Report { files, failures: found.failures };
-    for failure in report.all_failures() {
+    let jobs = jobs(found.inputs, arguments, streams)?;
+    let baselines = Baselines::read(&jobs, arguments, streams)?;
+    let mut summary = Summary { failures: found.failures, only_looks: arguments.diff, ..Summary::default() };
+    for failure in &summary.failures {
         streams.complain(format_args!("{failure}"));
     }
-    if let Some(path) = arguments.baseline.as_deref().filter(|_| arguments.update_baseline) {
-        let known = Baseline::write(path, &report.files).map_err(|error| {
-            io::Error::new(error.kind(), format!("{}: cannot be written: {error}", path.display()))
-        })?;
-        writeln!(streams.stdout, "{known} findings written to {}", path.display())?;
-        streams.stdout.flush()?;
-        return Ok(if report.all_failures().next().is_some() { Exit::Failed } else { Exit::Clean });
+    if arguments.update_baseline {
+        return update(baselines, &jobs, arguments, summary, streams);
     }
-    match &arguments.output {
-        None => write(&report, arguments, &mut streams.stdout)?,
-        Some(path) => {
-            let unwritable = |error: io::Error| {
-                io::Error::new(error.kind(), format!("{}: cannot be written: {error}", path.display()))
-            };
-            let mut file = BufWriter::new(File::create(path).map_err(unwritable)?);
-            write(&report, arguments, &mut file).map_err(unwritable)?;
+    let mut sink = Sink::open(arguments)?;
+    let to_terminal = streams.is_terminal && arguments.output.is_none() && !arguments.diff;
+    let style = human::Style { color: arguments.color.is_wanted(to_terminal), width: streams.width };
+    let mut format = format::of(arguments);
+    sink.write(streams, |out| format.begin(out))?;
+    lint_all(&jobs, &baselines, arguments, style, streams, |file, streams| {
+        summary.add(&file);
+        if let Some(fixes) = file.fixes() {
+            streams.stdout.write_all(&fixes.patch)?;
+        }
+        sink.write(streams, |out| format.file(&file, out))
+    })?;
+    sink.write(streams, |out| format.end(&summary, out))?;
+    sink.close(streams)?;
+    // The formats for machines have no summary, where people would read it.
+    let has_summary = !arguments.quiet
+        && (arguments.output.is_some()
+            || matches!(arguments.format, LintFormat::Human | LintFormat::Concise));
+    if let Some(left_out) = summary.left_out().filter(|_| !has_summary) {
+        streams.complain(format_args!("{left_out}"));
+    }
+    if arguments.output.is_some() && !arguments.quiet {
+        let out = if arguments.diff { &mut streams.stderr } else { &mut streams.stdout };
+        writeln!(out, "{summary}")?;
+    }
+    streams.stdout.flush()?;
+    Ok(summary.exit())
+}
+
+/// Where the findings go: into a file, or to standard output, which a patch has for itself.
+struct Sink<'a> {
+    file: Option<(&'a Path, BufWriter<File>)>,
+    to_stderr: bool,
+}
+
+impl<'a> Sink<'a> {
+    fn open(arguments: &'a LintArguments) -> io::Result<Self> {
+        let file = match &arguments.output {
+            None => None,
+            Some(path) => {
+                let file = File::create(path).map_err(|error| unwritable(path, &error))?;
+                Some((path.as_path(), BufWriter::new(file)))
+            }
+        };
+        Ok(Self { file, to_stderr: arguments.diff })
+    }
+
+    fn write(
+        &mut self,
+        streams: &mut Streams,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        match &mut self.file {
+            Some((path, file)) => write(file).map_err(|error| unwritable(path, &error)),
+            None if self.to_stderr => write(&mut streams.stderr),
+            None => write(&mut streams.stdout),
         }
     }
-    Ok(report.exit(arguments.fail_on.severity()))
+
+    fn close(&mut self, streams: &mut Streams) -> io::Result<()> {
+        self.write(streams, |out| out.flush())
+    }
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: cannot be written: {error}", path.display()))
+}
+
+/// The baselines of a run, by their paths: that of the command line, or those that settings name.
+#[derive(Default)]
+struct Baselines(BTreeMap<PathBuf, Baseline>);
+
+impl Baselines {
+    /// Reads those of `jobs`. One that is to be made need not be there.
+    fn read(jobs: &[Job], arguments: &LintArguments, streams: &mut Streams) -> Result<Self, Stopped> {
+        let mut baselines = Self::default();
+        let given = arguments.baseline.iter();
+        for path in jobs.iter().filter_map(|job| job.baseline.as_ref()).chain(given) {
+            if baselines.0.contains_key(path) {
+                continue;
+            }
+            let is_new = arguments.update_baseline && !path.exists();
+            let mut baseline = if is_new { Baseline::new(path) } else { Baseline::read(path)? };
+            if arguments.prune_baseline {
+                let gone = baseline.prune();
+                baseline.write()?;
+                let files = if gone == 1 {
+                    "1 file that is gone is"
+                } else {
+                    &format!("{gone} files that are gone are")
+                };
+                streams.complain(format_args!("{}: {files} taken out", path.display()));
+            }
+            baselines.0.insert(path.clone(), baseline);
+        }
+        if baselines.0.is_empty() && (arguments.update_baseline || arguments.prune_baseline) {
+            return Err("there is no baseline: name one with --baseline or in edskit.toml".to_owned().into());
+        }
+        Ok(baselines)
+    }
+
+    fn of(&self, job: &Job) -> Option<&Baseline> {
+        self.0.get(job.baseline.as_ref()?)
+    }
+}
+
+/// Writes everything that is found as known.
+fn update(
+    baselines: Baselines,
+    jobs: &[Job],
+    arguments: &LintArguments,
+    mut summary: Summary,
+    streams: &mut Streams,
+) -> Result<Exit, Stopped> {
+    let style = human::Style { color: false, width: streams.width };
+    // What is known already is found again, so no baseline takes it out.
+    let mut updated = baselines;
+    let mut written: BTreeMap<PathBuf, usize> = BTreeMap::new();
+    let mut jobs_left = jobs.iter();
+    lint_all(jobs, &Baselines::default(), arguments, style, streams, |file, _| {
+        summary.add(&file);
+        let job = jobs_left.next();
+        let Some((job, path)) = job.and_then(|job| Some((job, job.baseline.as_ref()?))) else {
+            return Ok(());
+        };
+        // A file that cannot be read was not looked at.
+        if let (None, Some(baseline)) = (file.failure(), updated.0.get_mut(path)) {
+            baseline.replace(&file.name, file.fingerprints(), job.linter.rules());
+            *written.entry(path.clone()).or_default() += file.fingerprints().len();
+        }
+        Ok(())
+    })?;
+    for (path, baseline) in &updated.0 {
+        baseline.write()?;
+        let new = written.get(path).copied().unwrap_or_default();
+        let kept = match baseline.len() - new {
+            0 => String::new(),
+            kept => format!(", {kept} of files and rules that were not looked at kept"),
+        };
+        writeln!(streams.stdout, "{new} findings written to {}{kept}", baseline.path().display())?;
+    }
+    streams.stdout.flush()?;
+    Ok(if summary.failures.is_empty() { Exit::Clean } else { Exit::Failed })
+}
+
+/// How many files are linted before their findings are written: enough for all processors, and few in memory.
+const FILES_AT_ONCE: usize = 32;
+
+/// Lints the files side by side, and hands them on one by one in their order.
+fn lint_all(
+    jobs: &[Job],
+    baselines: &Baselines,
+    arguments: &LintArguments,
+    style: human::Style,
+    streams: &mut Streams,
+    mut each: impl FnMut(FileReport, &mut Streams) -> io::Result<()>,
+) -> io::Result<()> {
+    let progress = progress(jobs.len(), arguments, streams);
+    for some in jobs.chunks(FILES_AT_ONCE) {
+        let files: Vec<(FileReport, Option<String>)> = some
+            .par_iter()
+            .map(|job| {
+                let report = lint_file(job, baselines.of(job), arguments, style);
+                progress.inc(1);
+                report
+            })
+            .collect();
+        for (file, remark) in files {
+            for complaint in file.failure().into_iter().chain(remark.as_deref()) {
+                streams.complain(format_args!("{complaint}"));
+            }
+            each(file, streams)?;
+        }
+    }
+    progress.finish_and_clear();
+    Ok(())
 }
 
 /// One file and the rules that run over it.
 struct Job {
     input: Input,
     linter: Linter,
+    /// From which severity on a finding makes the command fail.
+    threshold: Severity,
+    /// The path of the baseline.
+    baseline: Option<PathBuf>,
 }
 
-/// Finds the settings of every file and puts what the command line says on top of them.
-fn jobs(inputs: Vec<Input>, arguments: &LintArguments) -> Result<Vec<Job>, String> {
+/// Finds the settings of every file and puts what the command line says on top of them. What the settings exclude is left
+/// out, and that is told where the file was named.
+fn jobs(inputs: Vec<Input>, arguments: &LintArguments, streams: &mut Streams) -> Result<Vec<Job>, String> {
     let mut finder = Finder::default();
     let given = match &arguments.config {
         Some(path) => Some(Arc::new(Settings::read(path).map_err(|error| error.to_string())?)),
@@ -119,7 +288,7 @@ fn jobs(inputs: Vec<Input>, arguments: &LintArguments) -> Result<Vec<Job>, Strin
     let nothing = Arc::new(Settings::none());
     let own = arguments.profiles.iter().map(|path| profiles::read(path));
     let own: Vec<Profile> = own.collect::<Result<_, _>>().map_err(|error| error.to_string())?;
-    let job = |input: Input| {
+    let mut job = |input: Input| {
         let path = match &input {
             Input::File(path) => path.clone(),
             Input::Stdin(_) => PathBuf::from(&arguments.stdin_filename),
@@ -127,22 +296,32 @@ fn jobs(inputs: Vec<Input>, arguments: &LintArguments) -> Result<Vec<Job>, Strin
         let settings = match &given {
             Some(settings) => Arc::clone(settings),
             None => {
-                let folder = path.parent().unwrap_or(Path::new(""));
-                let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-                let found = finder.find(folder).map_err(|error| error.to_string())?;
+                let found = finder.find_for(&path).map_err(|error| error.to_string())?;
                 found.unwrap_or_else(|| Arc::clone(&nothing))
             }
         };
+        if settings.excludes(&path) {
+            if arguments.paths.contains(&path) {
+                streams.complain(format_args!("{}: {}", path.display(), settings::EXCLUDED));
+            }
+            return Ok(None);
+        }
         let rules = on_top(settings.rules_for(&path), arguments).map_err(|error| error.to_string())?;
         let profiles = match &own[..] {
             [] => Arc::clone(settings.profiles()),
             own => settings.profiles().iter().chain(own).cloned().collect(),
         };
-        Ok(Job { input, linter: Linter::new(rules).with_profiles(profiles) })
+        let threshold = arguments.fail_on.map(FailOn::severity).or(settings.fail_on());
+        Ok(Some(Job {
+            input,
+            linter: Linter::new(rules).with_profiles(profiles),
+            threshold: threshold.unwrap_or(Severity::Warning),
+            baseline: arguments.baseline.clone().or(settings.baseline().map(Path::to_path_buf)),
+        }))
     };
     // Selectors of the command line are wrong even where there is no file.
     on_top(RuleSet::default(), arguments).map_err(|error| error.to_string())?;
-    inputs.into_iter().map(job).collect()
+    inputs.into_iter().filter_map(|input| job(input).transpose()).collect()
 }
 
 /// The rules after the options `--select`, `--extend-select` and `--ignore`.
@@ -170,28 +349,39 @@ fn progress(files: usize, arguments: &LintArguments, streams: &Streams) -> Progr
     }
 }
 
+/// Lints a file, and says what else there is to say of it.
 fn lint_file(
     job: &Job,
     baseline: Option<&Baseline>,
     arguments: &LintArguments,
     style: human::Style,
-) -> FileReport {
+) -> (FileReport, Option<String>) {
     let name = job.input.name(&arguments.stdin_filename);
     let kind = FileKind::of(&name);
+    let unreadable = |name: String, reason| {
+        let outcome = Outcome::Unreadable(reason);
+        (FileReport { name, kind, threshold: job.threshold, outcome }, None)
+    };
     let bytes = match job.input.read() {
         Ok(bytes) => bytes,
         Err(error) => {
             let reason = files::unreadable(&name, &error);
-            return FileReport { name, kind, outcome: Outcome::Unreadable(reason) };
+            return unreadable(name, reason);
         }
     };
     let sheet = Datasheet::new(Document::from_vec(bytes));
+    let mut remark = None;
     let (sheet, mut findings, fixes) = if arguments.fix || arguments.diff {
         match fix_file(job, &name, sheet, kind, arguments) {
-            Ok(fixed) => fixed,
+            Ok((fixed, fixes)) => {
+                if !fixed.converged {
+                    remark = Some(format!("{name}: {GIVEN_UP}"));
+                }
+                (fixed.sheet, fixed.findings, fixes)
+            }
             Err(error) => {
                 let reason = format!("{name}: cannot be written: {error}");
-                return FileReport { name, kind, outcome: Outcome::Unreadable(reason) };
+                return unreadable(name, reason);
             }
         }
     } else {
@@ -199,7 +389,7 @@ fn lint_file(
         (sheet, found, Fixes::default())
     };
     findings.iter_mut().for_each(printable::finding);
-    let mut fingerprints: Vec<Fingerprint> = if arguments.baseline.is_some() {
+    let mut fingerprints: Vec<Fingerprint> = if job.baseline.is_some() {
         findings.iter().map(|finding| Fingerprint::of(&sheet, finding)).collect()
     } else {
         Vec::new()
@@ -215,8 +405,12 @@ fn lint_file(
         String::new()
     };
     let findings = findings.into_iter().map(|finding| Located::new(sheet.document(), finding)).collect();
-    FileReport { name, kind, outcome: Outcome::Linted { findings, excerpts, fingerprints, known, fixes } }
+    let outcome = Outcome::Linted { findings, excerpts, fingerprints, known, fixes };
+    (FileReport { name, kind, threshold: job.threshold, outcome }, remark)
 }
+
+/// What is said of a file whose fixes did not come to their end.
+const GIVEN_UP: &str = "fixing was given up before its end: too many fixes had to be tried, or two rules want the opposite of each other";
 
 /// What the rules find in a file; checks across files see the files beside it.
 fn findings(job: &Job, name: &str, sheet: &Datasheet, kind: FileKind) -> Vec<Finding> {
@@ -227,46 +421,26 @@ fn findings(job: &Job, name: &str, sheet: &Datasheet, kind: FileKind) -> Vec<Fin
     }
 }
 
-/// Fixes a file, in place or only as a difference, and gives what is left.
+/// Fixes a file, in place or only as a patch, and gives what is left.
 fn fix_file(
     job: &Job,
     name: &str,
     sheet: Datasheet,
     kind: FileKind,
     arguments: &LintArguments,
-) -> io::Result<(Datasheet, Vec<Finding>, Fixes)> {
+) -> io::Result<(Fixed, Fixes)> {
     let least = if arguments.unsafe_fixes { Applicability::Unsafe } else { Applicability::Safe };
-    let before = sheet.clone();
+    let before = sheet.document().to_bytes().to_vec();
     let fixed = edskit_lint::fix_with(sheet, least, |sheet| findings(job, name, sheet, kind));
-    let mut fixes = Fixes { applied: fixed.applied, diff: String::new() };
-    if fixed.applied == 0 {
-        return Ok((fixed.sheet, fixed.findings, fixes));
-    }
-    let after = fixed.sheet.document().to_bytes();
-    if arguments.diff {
-        fixes.diff = crate::difference::unified(name, before.document(), after, "fixed");
-    } else {
-        // Standard input was refused before.
-        if let Input::File(path) = &job.input {
+    let mut fixes = Fixes { applied: fixed.applied, refused: fixed.refused, patch: Vec::new() };
+    if fixed.applied > 0 {
+        let after = fixed.sheet.document().to_bytes();
+        if arguments.diff {
+            fixes.patch = difference::patch(name, &before, after);
+        } else if let Input::File(path) = &job.input {
+            // Standard input was refused before.
             fs::write(path, after)?;
         }
     }
-    Ok((fixed.sheet, fixed.findings, fixes))
-}
-
-fn write(report: &Report, arguments: &LintArguments, out: &mut dyn Write) -> io::Result<()> {
-    for fixes in report.files.iter().filter_map(FileReport::fixes) {
-        out.write_all(fixes.diff.as_bytes())?;
-    }
-    match arguments.format {
-        LintFormat::Human if arguments.statistics => statistics::human(report, out)?,
-        LintFormat::Json if arguments.statistics => statistics::json(report, out)?,
-        LintFormat::Human => human::write(report, arguments.quiet, out)?,
-        LintFormat::Concise => concise::write(report, arguments.quiet, out)?,
-        LintFormat::Json => json::write(report, out)?,
-        LintFormat::Sarif => sarif::write(report, out)?,
-        LintFormat::Github => github::write(report, out)?,
-        LintFormat::Junit => junit::write(report, out)?,
-    }
-    out.flush()
+    Ok((fixed, fixes))
 }

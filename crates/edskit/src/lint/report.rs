@@ -6,19 +6,13 @@ use crate::positions::Located;
 use edskit_lint::{FileKind, Severity};
 use std::fmt;
 
-/// The result of a run.
-pub(crate) struct Report {
-    /// One for each file, in the order of the arguments.
-    pub(crate) files: Vec<FileReport>,
-    /// What could not be searched.
-    pub(crate) failures: Vec<String>,
-}
-
 /// The result for one file.
 pub(crate) struct FileReport {
     /// The path as it is shown.
     pub(crate) name: String,
     pub(crate) kind: FileKind,
+    /// From which severity on a finding makes the command fail.
+    pub(crate) threshold: Severity,
     pub(crate) outcome: Outcome,
 }
 
@@ -44,8 +38,10 @@ pub(crate) enum Outcome {
 pub(crate) struct Fixes {
     /// How many findings were fixed.
     pub(crate) applied: usize,
-    /// The file as it would be, as a difference; only with `--diff`.
-    pub(crate) diff: String,
+    /// How many fixes were left out, because they would have made the file worse.
+    pub(crate) refused: usize,
+    /// What would make the file what it would be; only with `--diff`.
+    pub(crate) patch: Vec<u8>,
 }
 
 impl FileReport {
@@ -69,55 +65,23 @@ impl FileReport {
             Outcome::Unreadable(_) => &[],
         }
     }
-}
 
-impl Report {
-    /// Everything that kept a file from being linted.
-    pub(crate) fn all_failures(&self) -> impl Iterator<Item = &str> {
-        let unreadable = self.files.iter().filter_map(|file| match &file.outcome {
-            Outcome::Unreadable(reason) => Some(reason.as_str()),
+    /// Whether a finding of the file makes the command fail.
+    pub(crate) fn fails(&self, finding: &Located) -> bool {
+        finding.severity >= self.threshold
+    }
+
+    /// Why the file could not be linted.
+    pub(crate) fn failure(&self) -> Option<&str> {
+        match &self.outcome {
+            Outcome::Unreadable(reason) => Some(reason),
             Outcome::Linted { .. } => None,
-        });
-        self.failures.iter().map(String::as_str).chain(unreadable)
-    }
-
-    /// Every finding with its file.
-    pub(crate) fn findings(&self) -> impl Iterator<Item = (&FileReport, &Located)> {
-        self.files.iter().flat_map(|file| file.findings().iter().map(move |finding| (file, finding)))
-    }
-
-    pub(crate) fn summary(&self) -> Summary {
-        let count = |severity| self.findings().filter(|(_, finding)| finding.severity == severity).count();
-        let known = |file: &FileReport| match file.outcome {
-            Outcome::Linted { known, .. } => known,
-            Outcome::Unreadable(_) => 0,
-        };
-        let linted = |file: &&FileReport| matches!(file.outcome, Outcome::Linted { .. });
-        Summary {
-            files: self.files.iter().filter(linted).count(),
-            files_with_findings: self.files.iter().filter(|file| !file.findings().is_empty()).count(),
-            errors: count(Severity::Error),
-            warnings: count(Severity::Warning),
-            infos: count(Severity::Info),
-            known: self.files.iter().map(known).sum(),
-            fixed: self.files.iter().filter_map(FileReport::fixes).map(|fixes| fixes.applied).sum(),
-        }
-    }
-
-    /// How the run ended when findings count from `threshold` on.
-    pub(crate) fn exit(&self, threshold: Severity) -> Exit {
-        if self.all_failures().next().is_some() {
-            Exit::Failed
-        } else if self.findings().any(|(_, finding)| finding.severity >= threshold) {
-            Exit::Findings
-        } else {
-            Exit::Clean
         }
     }
 }
 
-/// How much was found.
-#[derive(Clone, Copy)]
+/// How much was found, and what could not be done.
+#[derive(Default)]
 pub(crate) struct Summary {
     pub(crate) files: usize,
     pub(crate) files_with_findings: usize,
@@ -128,13 +92,63 @@ pub(crate) struct Summary {
     pub(crate) known: usize,
     /// Findings that were fixed.
     pub(crate) fixed: usize,
+    /// Fixes that were left out.
+    pub(crate) refused: usize,
+    /// Whether the files stay as they are, and fixes only would be made.
+    pub(crate) only_looks: bool,
+    /// What could not be searched or read, and why.
+    pub(crate) failures: Vec<String>,
+    /// Whether a finding makes the command fail.
+    pub(crate) fails: bool,
+}
+
+impl Summary {
+    /// Adds a file.
+    pub(crate) fn add(&mut self, file: &FileReport) {
+        let Outcome::Linted { findings, known, fixes, .. } = &file.outcome else {
+            self.failures.extend(file.failure().map(str::to_owned));
+            return;
+        };
+        let count = |severity| findings.iter().filter(|finding| finding.severity == severity).count();
+        self.files += 1;
+        self.files_with_findings += usize::from(!findings.is_empty());
+        self.errors += count(Severity::Error);
+        self.warnings += count(Severity::Warning);
+        self.infos += count(Severity::Info);
+        self.known += known;
+        self.fixed += fixes.applied;
+        self.refused += fixes.refused;
+        self.fails |= findings.iter().any(|finding| file.fails(finding));
+    }
+
+    /// What is said of fixes that were left out, if any were.
+    pub(crate) fn left_out(&self) -> Option<String> {
+        let (fixes, they) = if self.refused == 1 { ("fix", "it") } else { ("fixes", "they") };
+        let told = || format!("{} {fixes} left out: {they} would uncover other errors", self.refused);
+        (self.refused > 0).then(told)
+    }
+
+    /// How the run ended.
+    pub(crate) fn exit(&self) -> Exit {
+        if !self.failures.is_empty() {
+            Exit::Failed
+        } else if self.fails {
+            Exit::Findings
+        } else {
+            Exit::Clean
+        }
+    }
 }
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.found(f)?;
         if self.fixed > 0 {
-            write!(f, ", {} fixed", self.fixed)?;
+            let done = if self.only_looks { "would be fixed" } else { "fixed" };
+            write!(f, ", {} {done}", self.fixed)?;
+        }
+        if let Some(left_out) = self.left_out() {
+            write!(f, ", {left_out}")?;
         }
         if self.known > 0 {
             write!(f, ", {} known from the baseline", self.known)?;

@@ -1,6 +1,7 @@
 //! SARIF 2.1.0, which code-scanning services read.
 
-use super::report::Report;
+use super::format::Format;
+use super::report::{FileReport, Summary};
 use crate::positions::{Located, Place, Region};
 use edskit_lint::{Rule, Severity, rules};
 use serde_json::{Value, json};
@@ -8,32 +9,45 @@ use std::io::{self, Write};
 
 const SCHEMA: &str = "https://json.schemastore.org/sarif-2.1.0.json";
 
-pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let results: Vec<Value> = report.findings().map(|(file, finding)| result(&file.name, finding)).collect();
-    let failures: Vec<Value> = report
-        .all_failures()
-        .map(|failure| json!({ "level": "error", "message": { "text": failure } }))
-        .collect();
-    let log = json!({
-        "$schema": SCHEMA,
-        "version": "2.1.0",
-        "runs": [{
-            "tool": { "driver": {
-                "name": "edskit",
-                "version": env!("CARGO_PKG_VERSION"),
-                "informationUri": env!("CARGO_PKG_REPOSITORY"),
-                "rules": rules::ALL.iter().map(|rule| descriptor(rule)).collect::<Vec<_>>(),
-            } },
-            "columnKind": "unicodeCodePoints",
-            "invocations": [{
-                "executionSuccessful": failures.is_empty(),
-                "toolExecutionNotifications": failures,
-            }],
-            "results": results,
-        }],
-    });
-    serde_json::to_writer_pretty(&mut *out, &log)?;
-    writeln!(out)
+#[derive(Default)]
+pub(super) struct Sarif {
+    /// Whether a result was written, so that the next one needs a comma.
+    has_result: bool,
+}
+
+impl Format for Sarif {
+    fn begin(&mut self, out: &mut dyn Write) -> io::Result<()> {
+        let driver = json!({
+            "name": "edskit",
+            "version": env!("CARGO_PKG_VERSION"),
+            "informationUri": env!("CARGO_PKG_REPOSITORY"),
+            "rules": rules::ALL.iter().map(|rule| descriptor(rule)).collect::<Vec<_>>(),
+        });
+        write!(
+            out,
+            "{{\"$schema\":\"{SCHEMA}\",\"version\":\"2.1.0\",\"runs\":[{{\"tool\":{{\"driver\":{driver}}},"
+        )?;
+        write!(out, "\"columnKind\":\"unicodeCodePoints\",\"results\":[")
+    }
+
+    fn file(&mut self, file: &FileReport, out: &mut dyn Write) -> io::Result<()> {
+        for finding in file.findings() {
+            let separator = if std::mem::replace(&mut self.has_result, true) { "," } else { "" };
+            write!(out, "{separator}\n{}", result(&file.name, finding))?;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+        let failures = summary.failures.iter();
+        let failures: Vec<Value> =
+            failures.map(|failure| json!({ "level": "error", "message": { "text": failure } })).collect();
+        let invocation = json!({
+            "executionSuccessful": failures.is_empty(),
+            "toolExecutionNotifications": failures,
+        });
+        writeln!(out, "\n],\"invocations\":[{invocation}]}}]}}")
+    }
 }
 
 fn descriptor(rule: &Rule) -> Value {

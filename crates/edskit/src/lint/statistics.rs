@@ -1,8 +1,10 @@
-//! How often each rule fires.
+//! How often each rule fires, by the severity that was found.
 
-use super::report::Report;
-use edskit_lint::Rule;
+use super::format::Format;
+use super::report::{FileReport, Summary};
+use edskit_lint::{Rule, Severity};
 use serde::Serialize;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashSet};
 use std::io::{self, Write};
 
@@ -15,43 +17,69 @@ struct Row {
     files: usize,
 }
 
-/// The rules that fired, the frequent ones first.
-fn rows(report: &Report) -> Vec<Row> {
-    let mut counts: BTreeMap<&'static str, (&'static Rule, usize, HashSet<&str>)> = BTreeMap::new();
-    for (file, finding) in report.findings() {
-        let (_, findings, files) =
-            counts.entry(finding.rule.code).or_insert((finding.rule, 0, HashSet::new()));
-        *findings += 1;
-        files.insert(&file.name);
+/// For each rule and severity how often it was found, and in how many files.
+#[derive(Default)]
+struct Counts(BTreeMap<(&'static str, Reverse<Severity>), (&'static Rule, usize, usize)>);
+
+impl Counts {
+    fn add(&mut self, file: &FileReport) {
+        let mut seen = HashSet::new();
+        for finding in file.findings() {
+            let key = (finding.rule.code, Reverse(finding.severity));
+            let (_, findings, files) = self.0.entry(key).or_insert((finding.rule, 0, 0));
+            *findings += 1;
+            *files += usize::from(seen.insert(key));
+        }
     }
-    let row = |(rule, findings, files): (&'static Rule, usize, HashSet<&str>)| Row {
-        code: rule.code,
-        name: rule.name,
-        severity: rule.severity.name(),
-        findings,
-        files: files.len(),
-    };
-    let mut rows: Vec<Row> = counts.into_values().map(row).collect();
-    rows.sort_by_key(|row| std::cmp::Reverse(row.findings));
-    rows
+
+    /// The frequent ones first.
+    fn rows(&self) -> Vec<Row> {
+        let row = |(key, value): (&(&str, Reverse<Severity>), &(&'static Rule, usize, usize))| {
+            let (&(_, Reverse(severity)), &(rule, findings, files)) = (key, value);
+            Row { code: rule.code, name: rule.name, severity: severity.name(), findings, files }
+        };
+        let mut rows: Vec<Row> = self.0.iter().map(row).collect();
+        rows.sort_by_key(|row| Reverse(row.findings));
+        rows
+    }
 }
 
-pub(super) fn human(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    let rows = rows(report);
-    if !rows.is_empty() {
-        writeln!(out, "{:>9} {:>6}  {:<7} {:<8} name", "findings", "files", "code", "severity")?;
+#[derive(Default)]
+pub(super) struct Human(Counts);
+
+impl Format for Human {
+    fn file(&mut self, file: &FileReport, _: &mut dyn Write) -> io::Result<()> {
+        self.0.add(file);
+        Ok(())
     }
-    for row in &rows {
-        writeln!(
-            out,
-            "{:>9} {:>6}  {:<7} {:<8} {}",
-            row.findings, row.files, row.code, row.severity, row.name
-        )?;
+
+    fn end(&mut self, summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
+        let rows = self.0.rows();
+        if !rows.is_empty() {
+            writeln!(out, "{:>9} {:>6}  {:<7} {:<8} name", "findings", "files", "code", "severity")?;
+        }
+        for row in &rows {
+            writeln!(
+                out,
+                "{:>9} {:>6}  {:<7} {:<8} {}",
+                row.findings, row.files, row.code, row.severity, row.name
+            )?;
+        }
+        writeln!(out, "{summary}")
     }
-    writeln!(out, "{}", report.summary())
 }
 
-pub(super) fn json(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, &rows(report))?;
-    writeln!(out)
+#[derive(Default)]
+pub(super) struct Json(Counts);
+
+impl Format for Json {
+    fn file(&mut self, file: &FileReport, _: &mut dyn Write) -> io::Result<()> {
+        self.0.add(file);
+        Ok(())
+    }
+
+    fn end(&mut self, _: &Summary, out: &mut dyn Write) -> io::Result<()> {
+        serde_json::to_writer_pretty(&mut *out, &self.0.rows())?;
+        writeln!(out)
+    }
 }

@@ -1,7 +1,10 @@
-//! Starting a hub.
+//! Starting a bus that others attach to.
 
 use edskit_host::{Hub, HubOptions};
 use std::net::SocketAddr;
+
+/// Where a bus of this process can be reached: the protocol, and the address.
+pub(crate) type Reachable = Vec<(&'static str, SocketAddr)>;
 
 /// Starts a hub.
 pub(crate) fn start_hub(listen: Option<SocketAddr>) -> Result<Hub, String> {
@@ -9,9 +12,9 @@ pub(crate) fn start_hub(listen: Option<SocketAddr>) -> Result<Hub, String> {
 }
 
 /// Where a hub listens, by protocol.
-pub(crate) fn addresses(hub: &Hub) -> impl Iterator<Item = (&'static str, SocketAddr)> {
+pub(crate) fn addresses(hub: &Hub) -> Reachable {
     let addresses = [("socketcand", hub.socketcand_address()), ("slcan", hub.slcan_address())];
-    addresses.into_iter().filter_map(|(protocol, address)| Some((protocol, address?)))
+    addresses.into_iter().filter_map(|(protocol, address)| Some((protocol, address?))).collect()
 }
 
 /// The hub's ports: the given one for socketcand and the next one for SLCAN; port 0 takes free ones.

@@ -1,6 +1,6 @@
 //! What an EDS or DCF knows of a device on the bus.
 
-use crate::files::unreadable;
+use crate::files::{self, own_file, unreadable};
 use crate::printable;
 use edskit_model::{Datasheet, DictionaryEntry, Document, Object};
 use edskit_types::{Index, SubIndex};
@@ -16,8 +16,12 @@ pub(crate) struct KnownDevice {
 
 impl KnownDevice {
     pub(crate) fn read(path: &Path) -> Result<Self, String> {
+        let path = files::one(path.as_os_str().to_owned())?;
         let file = path.to_string_lossy().into_owned();
-        let bytes = fs::read(path).map_err(|error| unreadable(&file, &error))?;
+        let bytes = fs::read(&path).map_err(|error| unreadable(&file, &error))?;
+        if let Some(reason) = own_file(&bytes) {
+            return Err(format!("{file}: {reason}"));
+        }
         let sheet = Datasheet::new(Document::from_vec(bytes));
         if sheet.objects().next().is_none() {
             return Err(format!(

@@ -1,9 +1,8 @@
 //! What a command on a bus tells: lines for people, or JSON for machines.
 
-use super::addresses;
 use crate::Streams;
 use crate::cli::LogFormat;
-use edskit_host::{Event, Hub};
+use edskit_host::Event;
 use serde::Serialize;
 use std::io;
 use std::net::SocketAddr;
@@ -23,9 +22,13 @@ impl Log {
         Self(format)
     }
 
-    /// Where a hub listens, on the first lines.
-    pub(crate) fn hub(&self, streams: &mut Streams, hub: &Hub) -> io::Result<()> {
-        for (protocol, address) in addresses(hub) {
+    /// Where the bus of this process can be reached, on the first lines.
+    pub(crate) fn reachable(
+        &self,
+        streams: &mut Streams,
+        addresses: &[(&'static str, SocketAddr)],
+    ) -> io::Result<()> {
+        for (protocol, address) in addresses.iter().copied() {
             let line = Line::Listening { protocol, address };
             self.line(streams, &line, || format!("{protocol} {address}"))?;
         }

@@ -6,7 +6,7 @@ mod log;
 mod stop;
 mod trace;
 
-pub(crate) use hub::{addresses, start_hub};
+pub(crate) use hub::{Reachable, addresses, start_hub};
 pub(crate) use known_device::{KnownDevice, full_name, object_name};
 pub(crate) use log::Log;
 pub(crate) use stop::Stop;
@@ -31,6 +31,9 @@ pub(crate) fn attach(address: &Address) -> Result<Box<dyn Bus + Send>, String> {
 /// Opens a bus; where that fails, the message says what may help.
 pub(crate) fn open_or_hint(address: &Address) -> Result<Box<dyn Bus + Send>, String> {
     open(address).map_err(|error| match address {
+        Address::VirtualAt { .. } => {
+            format!("{error}\n  `edskit run FILE --bus virtual` starts a device on a bus in virtual time.")
+        }
         Address::Socketcand { .. } | Address::Slcan { .. } => format!(
             "{error}\n  `edskit bus` starts a hub, `edskit run FILE` one with a device on it; --bus names another bus."
         ),

@@ -2,10 +2,11 @@
 
 mod decode;
 mod network;
+mod node;
 mod render;
 
 use crate::cli::MonitorArguments;
-use crate::live::{Log, PATIENCE, Stop, TraceFile, open_or_hint, start_hub};
+use crate::live::{Log, PATIENCE, Stop, TraceFile, addresses, open_or_hint, start_hub};
 use crate::{Exit, Streams};
 use decode::Decoder;
 use edskit_host::{Address, Bus, Event, Received, Trace};
@@ -22,7 +23,7 @@ pub(crate) fn run(arguments: &MonitorArguments, streams: &mut Streams) -> io::Re
     // A hub lives as long as its monitor.
     let (bus, _hub): (Box<dyn Bus + Send>, _) = if arguments.bus == Address::Hub {
         let hub = start_hub(None).map_err(io::Error::other)?;
-        log.hub(streams, &hub)?;
+        log.reachable(streams, &addresses(&hub))?;
         (Box::new(hub.attach()), Some(hub))
     } else {
         (open_or_hint(&arguments.bus).map_err(io::Error::other)?, None)

@@ -1,20 +1,18 @@
-//! Who is on the bus, as the given files say.
+//! Who is on the bus, as the given files say, and as transfers have shown since.
 
+use super::node::Node;
 use crate::live::KnownDevice;
-use crate::printable;
 use crate::value;
-use edskit_model::Value;
-use edskit_types::{
-    CanId, CobId, DataType, Index, MappingEntry, NodeId, Party, PdoDirection, SdoMessage, SdoRole, SubIndex,
-};
+use edskit_host::sdo::SdoValue;
+use edskit_types::{CanId, DataType, Index, NodeId, Party, PdoDirection, SdoMessage, SdoRole, SubIndex};
 use serde::Serialize;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
-/// The devices whose files were given, and what follows for the identifiers on the bus.
+/// The nodes of which something is known, and what follows for the identifiers on the bus.
 #[derive(Default)]
 pub(super) struct Network {
-    devices: HashMap<NodeId, KnownDevice>,
+    nodes: BTreeMap<NodeId, Node>,
     users: HashMap<CanId, User>,
 }
 
@@ -24,8 +22,17 @@ pub(super) struct User {
     pub(super) party: Party,
     /// The node; `None` for a service of the whole network.
     pub(super) node: Option<NodeId>,
-    /// What a PDO carries, where that is known.
-    pub(super) mapping: Option<Vec<MappedEntry>>,
+    /// What a PDO carries, where anything is known of that.
+    pub(super) mapping: Option<Mapping>,
+}
+
+/// What a PDO carries.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Mapping {
+    /// `None` where a part is not known.
+    pub(super) entries: Option<Vec<MappedEntry>>,
+    /// Whether transfers have shown it, and not the file.
+    pub(super) is_seen: bool,
 }
 
 /// One entry of a PDO.
@@ -80,44 +87,92 @@ impl Network {
 
     /// Takes a device in; two cannot be the same node.
     pub(super) fn add(&mut self, node_id: NodeId, device: KnownDevice) -> Result<(), String> {
-        for (party, cob_id, mapping) in parties(node_id, &device) {
-            let user = User { party, node: Some(node_id), mapping };
-            // Of those that send and those that receive the same PDO, the sender says what it is.
-            let is_better = |present: &User| present.party.is_rpdo() && !party.is_rpdo();
-            match self.users.get(&cob_id.can_id()) {
-                Some(present) if !is_better(present) => {}
-                _ => {
-                    self.users.insert(cob_id.can_id(), user);
-                }
-            }
-        }
-        let file = device.file.clone();
-        match self.devices.insert(node_id, device) {
-            None => Ok(()),
-            Some(other) => Err(format!("{} and {file} are both for node {node_id}", other.file)),
+        self.node(node_id).describe(device)?;
+        self.find_users();
+        Ok(())
+    }
+
+    fn node(&mut self, node_id: NodeId) -> &mut Node {
+        self.nodes.entry(node_id).or_insert_with(|| Node::new(node_id))
+    }
+
+    /// A transfer has shown what an entry of a node holds; no value where it was not seen whole.
+    pub(super) fn learn(
+        &mut self,
+        node_id: NodeId,
+        place: (Index, SubIndex),
+        value: Option<&SdoValue>,
+        is_written: bool,
+    ) {
+        if self.node(node_id).learn(place, value, is_written) {
+            self.find_users();
         }
     }
 
-    /// Who uses an identifier: by the files first, then by the pre-defined connection set.
+    /// A node starts anew; all of them for `None`.
+    pub(super) fn reset(&mut self, node_id: Option<NodeId>) {
+        let nodes =
+            self.nodes.iter_mut().filter(|(known, _)| node_id.is_none_or(|node_id| **known == node_id));
+        nodes.for_each(|(_, node)| node.reset());
+        self.find_users();
+    }
+
+    fn find_users(&mut self) {
+        self.users.clear();
+        for (node_id, node) in &self.nodes {
+            for (party, cob_id, mapping) in node.uses() {
+                let is_of_network = matches!(party, Party::Sync | Party::Time);
+                let user = User { party, node: (!is_of_network).then_some(*node_id), mapping };
+                // Of those that send and those that receive the same PDO, the sender says what it is.
+                let is_better = |present: &User| present.party.is_rpdo() && !party.is_rpdo();
+                match self.users.get(&cob_id.can_id()) {
+                    Some(present) if !is_better(present) => {}
+                    _ => {
+                        self.users.insert(cob_id.can_id(), user);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Who uses an identifier: what is known of the nodes first, then the pre-defined connection set.
     pub(super) fn user(&self, can_id: CanId) -> Option<User> {
-        if let Some(user) = self.users.get(&can_id) {
+        let predefined = predefined(can_id);
+        // NMT, the default SDO, heartbeats and LSS are where they are, whatever a file says.
+        let is_free = predefined.as_ref().is_none_or(|user| user.party.is_configurable());
+        if is_free && let Some(user) = self.users.get(&can_id) {
             return Some(user.clone());
         }
-        let user = predefined(can_id)?;
-        // The file of a node says which PDOs it has and where; the pre-defined ones do not count beside it.
-        let is_known = user.node.is_some_and(|node_id| self.devices.contains_key(&node_id));
-        (!is_known || !matches!(user.party, Party::Pdo { .. })).then_some(user)
+        let user = predefined?;
+        let node = user.node.and_then(|node_id| self.nodes.get(&node_id));
+        node.is_none_or(|node| !node.knows(user.party)).then_some(user)
+    }
+
+    /// Whether a node is known to send heartbeats, so that it is not guarded (CiA 301 v4.2, 7.2.8.3).
+    pub(super) fn sends_heartbeats(&self, node_id: NodeId) -> bool {
+        let time =
+            self.nodes.get(&node_id).and_then(|node| node.parameter(Index::PRODUCER_HEARTBEAT, SubIndex(0)));
+        time.is_some_and(|time| time > 0)
+    }
+
+    fn device(&self, node_id: NodeId) -> Option<&KnownDevice> {
+        self.nodes.get(&node_id)?.device()
     }
 
     /// The name of an entry of a node.
     pub(super) fn name(&self, node_id: NodeId, index: Index, sub_index: SubIndex) -> Option<String> {
-        self.devices.get(&node_id)?.name(index, sub_index)
+        self.device(node_id)?.name(index, sub_index)
     }
 
-    /// A value of an entry of a node.
-    pub(super) fn show(&self, node_id: NodeId, index: Index, sub_index: SubIndex, bytes: &[u8]) -> Shown {
-        let device = self.devices.get(&node_id);
-        show(device.and_then(|device| device.entry(index, sub_index)?.data_type()), bytes)
+    /// A value of an entry of a node, as its server or client says it.
+    pub(super) fn show(&self, node_id: NodeId, index: Index, sub_index: SubIndex, value: &SdoValue) -> Shown {
+        let entry = self.device(node_id).and_then(|device| device.entry(index, sub_index));
+        let data_type = entry.and_then(|entry| entry.data_type());
+        let mut shown = show(data_type, value::counted(data_type, value));
+        if !value::is_settled(data_type, value) {
+            shown.text += value::NOT_SAID;
+        }
+        shown
     }
 }
 
@@ -134,42 +189,6 @@ pub(super) fn show(data_type: Option<DataType>, bytes: &[u8]) -> Shown {
         value: data_type.map(|data_type| value::json(data_type, bytes)),
         bytes: value::digits(bytes),
     }
-}
-
-/// What a device uses by its file, with the values of power-on.
-fn parties(
-    node_id: NodeId,
-    device: &KnownDevice,
-) -> impl Iterator<Item = (Party, CobId, Option<Vec<MappedEntry>>)> + '_ {
-    let cob_id = move |value: Option<Value<'_>>| {
-        let value = value?.integer(DataType::Unsigned32, Some(node_id)).ok()?;
-        u32::try_from(value).ok().map(CobId)
-    };
-    let of_object = move |index| cob_id(device.entry(index, SubIndex(0)).and_then(|entry| entry.value()));
-    let emcy = of_object(Index::EMCY_COB_ID).filter(|cob_id| cob_id.is_valid());
-    let emcy = emcy.map(|cob_id| (Party::Emcy, cob_id, None));
-    let directions = [PdoDirection::Transmit, PdoDirection::Receive];
-    let pdos = directions.into_iter().flat_map(|direction| device.sheet.pdos(direction));
-    let pdos = pdos.filter_map(move |pdo| {
-        let cob_id = cob_id(pdo.cob_id()).filter(|cob_id| cob_id.is_valid())?;
-        let party = Party::Pdo { direction: pdo.direction, number: pdo.number };
-        let entries = pdo.mapped(Some(node_id)).map(|(_, entry)| mapped(device, entry?));
-        // A mapping with a gap says nothing about what stands behind the gap.
-        Some((party, cob_id, entries.collect::<Option<Vec<_>>>()))
-    });
-    emcy.into_iter().chain(pdos)
-}
-
-fn mapped(device: &KnownDevice, entry: MappingEntry) -> Option<MappedEntry> {
-    let (index, sub_index, bits) = (entry.index(), entry.sub_index(), entry.bits());
-    if entry.is_dummy() {
-        let data_type = DataType::from_index(index);
-        return Some(MappedEntry { index, sub_index, bits, name: Some("dummy".to_owned()), data_type });
-    }
-    let described = device.entry(index, sub_index);
-    let name = device.name(index, sub_index).map(|name| printable::line(&name));
-    let data_type = described.and_then(|entry| entry.data_type());
-    (entry.0 != 0).then_some(MappedEntry { index, sub_index, bits, name, data_type })
 }
 
 /// The pre-defined connection set, seen from an identifier (CiA 301 v4.2, 7.3.3).

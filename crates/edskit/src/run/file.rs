@@ -1,8 +1,9 @@
 //! Any EDS or DCF as a live node.
 
 mod log;
+mod refused;
 
-use super::connect;
+use super::{Connected, connect};
 use crate::cli::RunArguments;
 use crate::device_file::{DeviceFile, print_problems};
 use crate::live::{Log, PATIENCE, Stop, TraceFile};
@@ -12,7 +13,7 @@ use edskit_host::{Bus, MemoryDevice, MemoryStorage, Station};
 use edskit_lint::{FileKind, Severity};
 use edskit_model::{Datasheet, Document};
 use edskit_runtime::{Node, NodeDevice, Settings};
-use edskit_types::NodeId;
+use edskit_types::{Bitrate, NodeId};
 use std::io;
 use std::path::Path;
 
@@ -20,7 +21,7 @@ use std::path::Path;
 const MOST_WARNINGS: usize = 20;
 
 pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
-    let Loaded { layout, commissioned, naming } = match load(&arguments.file) {
+    let Loaded { layout, commissioned, bit_rate, naming } = match load(&arguments.file) {
         Ok(loaded) => loaded,
         Err(reasons) => {
             for reason in reasons {
@@ -30,7 +31,13 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
         }
     };
     let node_id = arguments.node_id.or(commissioned).unwrap_or(NodeId::MIN);
-    let warnings = warnings_of(&layout, node_id);
+    let settings = Settings { node_id: Some(node_id), ..layout.settings };
+    let mut warnings = warnings_of(&layout, node_id);
+    // A COB-ID that cannot be used is named already, in words of its own.
+    let named: Vec<_> =
+        layout.cob_id_problems(Some(node_id)).into_iter().map(|problem| problem.span).collect();
+    let refused = refused::problems(&layout, settings);
+    warnings.extend(refused.into_iter().filter(|problem| !named.contains(&problem.span)));
     let (shown, others) = warnings.split_at(warnings.len().min(MOST_WARNINGS));
     print_problems(shown, &naming, streams)?;
     if !others.is_empty() {
@@ -38,14 +45,12 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     }
     let log = Log::new(arguments.log.unwrap_or_default());
     let record = arguments.trace.as_deref().map(TraceFile::create).transpose().map_err(io::Error::other)?;
-    // The hub lives as long as the node.
-    let (bus, hub) = connect(arguments, record).map_err(io::Error::other)?;
-    if let Some(hub) = &hub {
-        log.hub(streams, hub)?;
-    }
+    let bit_rate = arguments.bit_rate.or(bit_rate).unwrap_or(Bitrate::Kbit1000);
+    let Connected { bus, reachable, _hub } =
+        connect(arguments, bit_rate, record).map_err(io::Error::other)?;
+    log.reachable(streams, &reachable)?;
     let stop = Stop::on_request().map_err(io::Error::other)?;
     log::node(&log, streams, node_id, layout.product.as_deref())?;
-    let settings = Settings { node_id: Some(node_id), ..Settings::default() };
     let node = Node::new(LoadedDictionary::new(&layout), settings, MemoryStorage::default());
     let mut station = Station::new(NodeDevice { node, application: MemoryDevice::default() }, bus);
     while !stop.is_asked() {
@@ -67,6 +72,8 @@ struct Loaded {
     layout: Layout,
     /// The node-ID that a DCF commissions.
     commissioned: Option<NodeId>,
+    /// The bit rate that a DCF commissions.
+    bit_rate: Option<Bitrate>,
     naming: Naming,
 }
 
@@ -93,6 +100,8 @@ fn load(path: &Path) -> Result<Loaded, Vec<String>> {
     if layout.entries.is_empty() {
         return Err(vec![format!("{name}: the file describes no object, so there is nothing to run")]);
     }
-    let commissioned = if FileKind::of(name) == FileKind::Dcf { sheet.commissioned_node_id() } else { None };
-    Ok(Loaded { layout, commissioned, naming })
+    let is_dcf = FileKind::of(name) == FileKind::Dcf;
+    let commissioned = if is_dcf { sheet.commissioned_node_id() } else { None };
+    let bit_rate = if is_dcf { sheet.commissioned_bitrate() } else { None };
+    Ok(Loaded { layout, commissioned, bit_rate, naming })
 }

@@ -2,12 +2,15 @@
 
 mod file;
 pub(crate) mod gateway;
+mod virtual_bus;
 
 use crate::cli::RunArguments;
-use crate::live::{TraceFile, start_hub};
+use crate::live::{Reachable, TraceFile, addresses, open_or_hint, start_hub};
 use crate::{Exit, Streams};
-use edskit_host::{Address, Bus, Hub, Trace, open};
+use edskit_host::{Address, Bus, Hub, Trace};
+use edskit_types::Bitrate;
 use std::io;
+use virtual_bus::{USUAL_ADDRESS, VirtualConnection};
 
 /// The built-in device in the place of a file.
 const GATEWAY: &str = "gateway";
@@ -30,18 +33,40 @@ pub(crate) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
     file::run(arguments, streams)
 }
 
-/// A bus, and the hub where this process has started one for it.
-type Connected = (Box<dyn Bus>, Option<Hub>);
+/// The bus of a device.
+struct Connected {
+    bus: Box<dyn Bus>,
+    /// Where others reach it, if this process has made it.
+    reachable: Reachable,
+    /// It lives as long as the device.
+    _hub: Option<Hub>,
+}
 
-fn connect(arguments: &RunArguments, record: Option<TraceFile>) -> Result<Connected, String> {
-    let (bus, hub): Connected = if arguments.bus == Address::Hub {
+/// Opens or makes the bus, one in virtual time with this bit rate.
+fn connect(
+    arguments: &RunArguments,
+    bit_rate: Bitrate,
+    record: Option<TraceFile>,
+) -> Result<Connected, String> {
+    if arguments.bus == Address::Virtual {
+        let listen = arguments.listen.unwrap_or(USUAL_ADDRESS);
+        let bus = VirtualConnection::start(listen, bit_rate, record).map_err(|error| error.to_string())?;
+        let reachable = vec![("virtual", bus.address())];
+        return Ok(Connected { bus: Box::new(bus), reachable, _hub: None });
+    }
+    if arguments.bit_rate.is_some() {
+        return Err("--bit-rate goes with `--bus virtual`: a hub has no bit rate, and that of another bus is not set here"
+            .to_owned());
+    }
+    let (bus, hub): (Box<dyn Bus>, _) = if arguments.bus == Address::Hub {
         let hub = start_hub(arguments.listen)?;
         (Box::new(hub.attach()), Some(hub))
     } else {
-        (open(&arguments.bus).map_err(|error| error.to_string())?, None)
+        (open_or_hint(&arguments.bus)?, None)
     };
+    let reachable = hub.as_ref().map(addresses).unwrap_or_default();
     Ok(match record {
-        Some(record) => (Box::new(Trace::new(bus, record)), hub),
-        None => (bus, hub),
+        Some(record) => Connected { bus: Box::new(Trace::new(bus, record)), reachable, _hub: hub },
+        None => Connected { bus, reachable, _hub: hub },
     })
 }

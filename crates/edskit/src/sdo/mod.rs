@@ -2,6 +2,7 @@
 
 mod place;
 mod reasons;
+mod silence;
 
 use crate::cli::{
     ReadFormat, SdoArguments, SdoCommand, SdoPlaceArguments, SdoReadArguments, SdoWriteArguments,
@@ -10,6 +11,7 @@ use crate::files::unreadable;
 use crate::live::{KnownDevice, attach};
 use crate::value::{self, ValueType};
 use crate::{Exit, Streams};
+use edskit_host::Bus;
 use edskit_host::sdo::{SdoClient, SdoError};
 use edskit_types::{DataType, Index, SubIndex};
 use reasons::{Request, reasons};
@@ -80,6 +82,7 @@ impl<'a> Target<'a> {
             sub_index,
             written,
             data_type: self.data_type,
+            transfer: arguments.transfer,
         };
         for reason in reasons(&request, error) {
             // As `complain`: nothing is left to tell it to where even the error stream is gone.
@@ -99,6 +102,8 @@ struct Report<'a> {
     data_type: Option<&'static str>,
     /// Hexadecimal digits, as they come.
     bytes: String,
+    /// Whether the node has said how many bytes there are; else the data type says it, where it can.
+    length_said: bool,
     /// By the data type, where it is known.
     value: Option<serde_json::Value>,
 }
@@ -106,25 +111,30 @@ struct Report<'a> {
 fn read(arguments: &SdoReadArguments, streams: &mut Streams) -> io::Result<Exit> {
     let target = Target::find(&arguments.place).map_err(io::Error::other)?;
     let mut bus = attach(&arguments.place.connection.bus).map_err(io::Error::other)?;
-    let bytes = match target.client().read(&mut bus, target.index, target.sub_index) {
-        Ok(bytes) => bytes,
+    read_over(&mut *bus, &target, arguments, streams)
+}
+
+fn read_over(
+    bus: &mut dyn Bus,
+    target: &Target<'_>,
+    arguments: &SdoReadArguments,
+    streams: &mut Streams,
+) -> io::Result<Exit> {
+    let value = match target.client().read(bus, target.index, target.sub_index) {
+        Ok(value) => value,
         Err(error) => return Ok(target.complain(&error, None, streams)),
     };
+    let bytes = value::counted(target.data_type, &value);
     if let Some(path) = &arguments.file {
-        fs::write(path, &bytes).map_err(|error| failed_on(path, &error))?;
-        writeln!(
-            streams.stdout,
-            "{}: {} bytes written to {}",
-            target.heading(),
-            bytes.len(),
-            path.display()
-        )?;
+        fs::write(path, bytes).map_err(|error| failed_on(path, &error))?;
+        let (heading, path) = (target.heading(), path.display());
+        write!(streams.stdout, "{heading}: {} bytes written to {path}", bytes.len())?;
+        let is_settled = value::is_settled(target.data_type, &value);
+        writeln!(streams.stdout, "{}", if is_settled { "" } else { value::NOT_SAID })?;
     } else {
         match arguments.format {
             ReadFormat::Text => {
-                let shown =
-                    target.data_type.map_or_else(|| value::untyped(&bytes), |kind| value::text(kind, &bytes));
-                writeln!(streams.stdout, "{}: {shown}", target.heading())?;
+                writeln!(streams.stdout, "{}: {}", target.heading(), value::said(target.data_type, &value))?;
             }
             ReadFormat::Json => {
                 let report = Report {
@@ -133,8 +143,9 @@ fn read(arguments: &SdoReadArguments, streams: &mut Streams) -> io::Result<Exit>
                     sub_index: target.sub_index.0,
                     name: target.name.as_deref(),
                     data_type: target.data_type.map(DataType::name),
-                    bytes: value::digits(&bytes),
-                    value: target.data_type.map(|kind| value::json(kind, &bytes)),
+                    bytes: value::digits(bytes),
+                    length_said: value.is_length_said(),
+                    value: target.data_type.map(|kind| value::json(kind, bytes)),
                 };
                 serde_json::to_writer_pretty(&mut streams.stdout, &report)?;
                 writeln!(streams.stdout)?;
@@ -159,13 +170,23 @@ fn write(arguments: &SdoWriteArguments, streams: &mut Streams) -> io::Result<Exi
         }
     };
     let mut bus = attach(&arguments.place.connection.bus).map_err(io::Error::other)?;
-    if let Err(error) = target.client().write(&mut bus, target.index, target.sub_index, &bytes) {
-        return Ok(target.complain(&error, Some(&bytes), streams));
+    write_over(&mut *bus, &target, arguments, &bytes, streams)
+}
+
+fn write_over(
+    bus: &mut dyn Bus,
+    target: &Target<'_>,
+    arguments: &SdoWriteArguments,
+    bytes: &[u8],
+    streams: &mut Streams,
+) -> io::Result<Exit> {
+    if let Err(error) = target.client().write(bus, target.index, target.sub_index, bytes) {
+        return Ok(target.complain(&error, Some(bytes), streams));
     }
     let shown = match (&arguments.file, target.data_type) {
         (Some(path), _) => format!("{} bytes of {}", bytes.len(), path.display()),
-        (None, Some(data_type)) => value::text(data_type, &bytes),
-        (None, None) => value::untyped(&bytes),
+        (None, Some(data_type)) => value::text(data_type, bytes),
+        (None, None) => value::untyped(bytes),
     };
     writeln!(streams.stdout, "{} = {shown}", target.heading())?;
     streams.stdout.flush()?;
@@ -193,3 +214,6 @@ fn untyped(target: &Target<'_>) -> String {
 fn failed_on(path: &std::path::Path, error: &io::Error) -> io::Error {
     io::Error::other(format!("{}: {error}", path.display()))
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,7 @@
 //! Why a request may have failed, and what to do.
 
+use super::silence::on_silence;
+use crate::cli::TransferKind;
 use crate::live::KnownDevice;
 use crate::value::size;
 use edskit_host::sdo::SdoError;
@@ -15,28 +17,20 @@ pub(super) struct Request<'a> {
     /// The bytes that were to be written; `None` for a read.
     pub(super) written: Option<&'a [u8]>,
     pub(super) data_type: Option<DataType>,
+    pub(super) transfer: TransferKind,
 }
+
+/// Where the user has asked for blocks.
+pub(super) const WITHOUT_BLOCKS: &str =
+    "The node may not know this kind of transfer; --transfer segmented is what most nodes know.";
 
 /// What helps to understand an error, in whole sentences.
 pub(super) fn reasons(request: &Request<'_>, error: &SdoError) -> Vec<String> {
     match error {
         SdoError::Aborted(code) => on_abort(request, *code),
-        SdoError::TimedOut { stray: None } => vec![
-            format!(
-                "Perhaps no node with node-ID {} is on this bus, or it runs with another bit rate.",
-                request.node
-            ),
-            format!(
-                "A node in the state stopped answers no SDO: `edskit nmt {} preop` wakes it up. `edskit monitor` shows \
-                 who is there.",
-                request.node
-            ),
-        ],
-        SdoError::TimedOut { stray: Some(_) } => {
-            vec![
-                "Perhaps another SDO client uses the same node at the same time; `edskit monitor` shows it."
-                    .to_owned(),
-            ]
+        SdoError::TimedOut { heard } => on_silence(request, heard),
+        SdoError::GivenUp { .. } if request.transfer == TransferKind::Block => {
+            vec![WITHOUT_BLOCKS.to_owned()]
         }
         _ => Vec::new(),
     }
@@ -58,11 +52,22 @@ fn on_abort(request: &Request<'_>, code: AbortCode) -> Vec<String> {
         AbortCode::INVALID_VALUE | AbortCode::VALUE_TOO_HIGH | AbortCode::VALUE_TOO_LOW => {
             on_order(request).or_else(|| on_limits(entry?, file))
         }
-        AbortCode::CANNOT_TRANSFER | AbortCode::LOCAL_CONTROL | AbortCode::DEVICE_STATE => {
+        AbortCode::LOCAL_CONTROL => {
+            Some("What operates the device on the spot, a key or a panel say, keeps this from the bus.".to_owned())
+        }
+        AbortCode::CANNOT_TRANSFER | AbortCode::DEVICE_STATE => {
             on_signature(request).or_else(|| Some(on_state(request)))
         }
+        AbortCode::UNKNOWN_COMMAND
+        | AbortCode::INVALID_BLOCK_SIZE
+        | AbortCode::INVALID_SEQUENCE_NUMBER
+        | AbortCode::CRC_ERROR
+            if request.transfer == TransferKind::Block =>
+        {
+            Some(WITHOUT_BLOCKS.to_owned())
+        }
         AbortCode::UNKNOWN_COMMAND => Some(
-            "The node may not know this kind of transfer; --transfer segmented is what most nodes know."
+            "This kind of transfer is what every node knows; perhaps the node was in the midst of another one: try again."
                 .to_owned(),
         ),
         _ => None,

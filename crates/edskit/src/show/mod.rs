@@ -20,7 +20,10 @@ pub(crate) fn run(arguments: &ShowArguments, streams: &mut Streams) -> io::Resul
     let name = arguments.file.to_string_lossy();
     let sheet = files::read_datasheet(&arguments.file, streams)?;
     if is_no_device(&sheet) {
-        streams.complain(format_args!("{name}: this is no EDS or DCF; `edskit lint` says what it is"));
+        let reason = files::own_file(sheet.document().to_bytes());
+        let reason =
+            reason.unwrap_or_else(|| "this is no EDS or DCF; `edskit lint` says what it is".to_owned());
+        streams.complain(format_args!("{name}: {reason}"));
         return Ok(Exit::Failed);
     }
     let assumed = meant::views(&sheet);

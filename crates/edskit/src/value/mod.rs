@@ -6,7 +6,7 @@ mod showing;
 
 pub(crate) use calendar::clock;
 pub(crate) use reading::bytes_of;
-pub(crate) use showing::{digits, hex, json, text, untyped};
+pub(crate) use showing::{NOT_SAID, counted, digits, hex, is_settled, json, said, text, untyped};
 
 use edskit_types::DataType;
 use std::str::FromStr;

@@ -3,6 +3,7 @@
 use super::calendar::time_of_day;
 use super::size;
 use crate::printable;
+use edskit_host::sdo::SdoValue;
 use edskit_runtime::Value as _;
 use edskit_types::{DataType, DataTypeKind};
 use serde_json::{Value as Json, json};
@@ -73,6 +74,27 @@ pub(crate) fn json(data_type: DataType, bytes: &[u8]) -> Json {
         DataTypeKind::TimeOfDay | DataTypeKind::TimeDifference => json!(text(data_type, bytes)),
         DataTypeKind::OctetString | DataTypeKind::Domain | DataTypeKind::Record => json!(digits(bytes)),
     }
+}
+
+/// What a server says its entry holds, for people. Where neither it nor the type says how many of the bytes count, all are
+/// shown, and that it is not said.
+pub(crate) fn said(data_type: Option<DataType>, value: &SdoValue) -> String {
+    let bytes = counted(data_type, value);
+    let shown = data_type.map_or_else(|| untyped(bytes), |data_type| text(data_type, bytes));
+    if is_settled(data_type, value) { shown } else { shown + NOT_SAID }
+}
+
+/// What stands behind bytes of which nobody says how many count.
+pub(crate) const NOT_SAID: &str = " (the length is not said)";
+
+/// The bytes that count, as far as that is known.
+pub(crate) fn counted(data_type: Option<DataType>, value: &SdoValue) -> &[u8] {
+    data_type.map_or(&value.bytes, |data_type| value.of_type(data_type))
+}
+
+/// Whether it is known how many bytes count.
+pub(crate) fn is_settled(data_type: Option<DataType>, value: &SdoValue) -> bool {
+    data_type.map_or(value.is_length_said(), |data_type| value.is_settled_by(data_type))
 }
 
 /// Bytes of which nothing is known: as they are, and as the unsigned number that they could be.

@@ -1,4 +1,5 @@
 use super::*;
+use edskit_host::sdo::SdoValue;
 use edskit_types::NodeId;
 
 fn bytes(data_type: DataType, text: &str) -> Vec<u8> {
@@ -56,6 +57,31 @@ fn other_lengths_are_shown_as_they_are() {
     assert_eq!(untyped(&[]), "(no bytes)");
     assert_eq!(untyped(&[0xE8, 3]), "E8 03 (1000)");
     assert_eq!(untyped(&[1, 2, 3]), "01 02 03");
+}
+
+#[test]
+fn what_a_server_leaves_unsaid_the_type_says() {
+    let shown =
+        |data_type, bytes: &[u8], unsure| said(data_type, &SdoValue { bytes: bytes.to_vec(), unsure });
+    let expedited = |data_type| shown(data_type, &[0x2C, 1, 0, 0], 3);
+    assert_eq!(expedited(Some(DataType::Unsigned16)), "300 (012Ch)");
+    assert_eq!(expedited(Some(DataType::Integer24)), "300 (00012Ch)");
+    assert_eq!(expedited(Some(DataType::Unsigned32)), "300 (0000012Ch)");
+    assert_eq!(expedited(Some(DataType::Unsigned8)), "44 (2Ch)");
+    assert_eq!(expedited(Some(DataType::OctetString)), "2C 01 00 00 (the length is not said)");
+    assert_eq!(expedited(None), "2C 01 00 00 (300) (the length is not said)");
+    assert_eq!(shown(Some(DataType::Boolean), &[1, 0, 0, 0], 3), "1 (true)");
+    assert_eq!(shown(Some(DataType::VisibleString), b"AB\0\0", 3), "\"AB\"");
+    assert_eq!(shown(Some(DataType::TimeDifference), &[2, 0, 0, 0, 1, 0, 0], 6), "1 day and 2 ms");
+    // Where it is said and wrong, or cannot be that of the type.
+    assert_eq!(
+        shown(Some(DataType::Unsigned16), &[0x2C, 1, 0, 0], 0),
+        "2C 01 00 00 (4 bytes, but UNSIGNED16 has 2)"
+    );
+    assert_eq!(
+        expedited(Some(DataType::Unsigned64)),
+        "2C 01 00 00 (4 bytes, but UNSIGNED64 has 8) (the length is not said)"
+    );
 }
 
 #[test]

@@ -86,7 +86,7 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
         let Some(table) = self.gateway.pdos.as_ref().filter(|_| self.gateway.phase == Phase::Ready) else {
             return false;
         };
-        build(objects, table, self.parameters.effective(), self.gateway.identification);
+        build(objects, table, self.parameters.effective(), self.gateway.identification());
         true
     }
 
@@ -128,7 +128,8 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
 impl<G: Governor, S: Storage> Plant<G, S> {
     /// 1001h: bit 0 for any error of the gateway, bit 4 for one of communication (GW-NOTE-36).
     fn error_register(&self) -> u8 {
-        let generic = self.gateway.errors.present().next().is_some();
+        let generic =
+            self.gateway.errors.present().next().is_some() || !self.gateway.eeprom_errors.is_empty();
         let communication = self.gateway.can_open.iter().any(|error| error.is_of_communication());
         u8::from(generic) | u8::from(communication) << 4
     }
@@ -144,7 +145,6 @@ fn build(
     let [partner, monitoring, heartbeat] = configuration.heartbeat_parameters();
     objects.set(entries::CONSUMER_HEARTBEAT_TIME, u32::from(partner) << 16 | u32::from(monitoring));
     objects.set(entries::PRODUCER_HEARTBEAT_TIME, heartbeat);
-    objects.set(entries::IDENTITY_OBJECT_REVISION_NUMBER, identification.software_version.into());
     objects.set(entries::IDENTITY_OBJECT_SERIAL_NUMBER, identification.serial());
     for pdo in table.iter() {
         let (communication, mapping) = indices(pdo);

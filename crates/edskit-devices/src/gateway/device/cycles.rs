@@ -1,9 +1,11 @@
 //! What both units do in their main cycles.
 
+use super::super::agreement::{GATEWAY_LINK, GOVERNOR_LINK};
+use super::super::configuration::Configuration;
 use super::super::control_unit::{ControlUnit, Step};
 use super::super::governor::Governor;
 use super::super::inputs::{Inputs, Reception};
-use super::super::parameter::{Owner, Parameter, known};
+use super::super::parameter::{Owner, Parameter, Quantity, known};
 use super::super::pdo::{Pdo, Source};
 use super::{Gateway, Plant, node};
 use edskit_runtime::{Instant, Microseconds, Objects, Storage};
@@ -11,14 +13,6 @@ use edskit_runtime::{Instant, Microseconds, Objects, Storage};
 /// How long each unit waits after its start before it misses the other one (7.2.1; GW-CFG-31).
 const GATEWAY_DELAY: Parameter = known(Owner::Gateway, 400);
 const GOVERNOR_DELAY: Parameter = known(Owner::Governor, 400);
-/// Whether each unit communicates with the other one (7.1.1, 7.2.1; GW-CFG-34).
-const GATEWAY_LINK: Parameter = known(Owner::Gateway, 4400);
-const GOVERNOR_LINK: Parameter = known(Owner::Governor, 4406);
-/// Whom each unit takes itself and the other one for (7.1.1, 7.2.1; GW-CFG-32, GW-CFG-33).
-const GATEWAY_NUMBER: Parameter = known(Owner::Gateway, 401);
-const GOVERNOR_NUMBER_OF_GATEWAY: Parameter = known(Owner::Gateway, 402);
-pub(super) const GOVERNOR_NUMBER: Parameter = known(Owner::Governor, 401);
-const GATEWAY_NUMBER_OF_GOVERNOR: Parameter = known(Owner::Governor, 403);
 
 impl<G: Governor, S: Storage> Gateway<G, S> {
     /// Every start and main cycle that is due, in the order of time; the governor first where both are.
@@ -28,7 +22,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
             let owner = if governor_first { Owner::Governor } else { Owner::Gateway };
             let Some(step) = self.plant.unit_mut(owner).step(now) else { return };
             match (step, owner) {
-                (Step::Start, Owner::Governor) => self.start_governor(),
+                (Step::Start, Owner::Governor) => self.start_governor(now),
                 (Step::Start, Owner::Gateway) => self.start_gateway(now),
                 (Step::MainCycle, Owner::Governor) => self.governor_cycle(now),
                 (Step::MainCycle, Owner::Gateway) => self.gateway_cycle(now),
@@ -36,15 +30,16 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         }
     }
 
-    fn start_governor(&mut self) {
+    fn start_governor(&mut self, now: Instant) {
         self.plant.parameters.start(Owner::Governor);
         self.plant.governor.start();
         self.plant.governor.model.start();
         self.plant.events.push(super::Event::Started(Owner::Governor));
+        self.update_errors(now);
     }
 
     fn start_gateway(&mut self, now: Instant) {
-        self.plant.start_gateway();
+        self.plant.start_gateway(now);
         // The node-ID of the parameters takes effect.
         self.node = node(self.plant.parameters.effective());
         self.node.poll(now, &mut self.plant);
@@ -84,6 +79,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         let mut due = [0; 16];
         let mut count = 0;
         let errors = self.plant.error_words();
+        let parameters = self.plant.parameters.effective();
         let mut objects = self.node.objects();
         for tpdo in table.tpdos.iter().filter(|tpdo| tpdo.activity.is_active()) {
             let governor = &mut self.plant.governor;
@@ -98,7 +94,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
                 }
             };
             if is_due {
-                write_words(&mut objects, tpdo, &governor.model);
+                write_words(&mut objects, tpdo, &governor.model, parameters);
             }
             if let Some(place) = due.get_mut(count).filter(|_| is_due && is_operational) {
                 *place = tpdo.number;
@@ -125,32 +121,46 @@ fn binary_words(tpdo: &Pdo, errors: [u16; 6], status: u8) -> [u16; 4] {
 
 /// Puts the governor's values into the entries that a TPDO carries. Errors and status are brought up to date whenever
 /// they are read.
-fn write_words(objects: &mut Objects<'_>, tpdo: &Pdo, governor: &impl Governor) {
+fn write_words(objects: &mut Objects<'_>, tpdo: &Pdo, governor: &impl Governor, parameters: &Configuration) {
     for word in tpdo.words() {
         if let Source::Signal { number, .. } = word.source {
-            objects.set_value(word.object.index(), word.object.sub_index().0, governor.value(number));
+            let value = match Parameter::find(Owner::Governor, number) {
+                Some(parameter) => internal_value(parameter, parameters),
+                None => governor.value(number),
+            };
+            objects.set_value(word.object.index(), word.object.sub_index().0, value);
         }
     }
 }
 
+/// A parameter of the governor itself, in 16 bits: times in s as steps of 10 ms (our choice; 7.1.2.2, GW-PDO-07).
+fn internal_value(parameter: Parameter, parameters: &Configuration) -> u16 {
+    let value = parameters.get(parameter);
+    match parameter.quantity() {
+        Quantity::Seconds => (value / 10) as u16,
+        _ => value as u16,
+    }
+}
+
 impl<G: Governor, S: Storage> Plant<G, S> {
-    /// The gateway's program starts with what it has stored.
-    fn start_gateway(&mut self) {
-        // Bits 5, 4 and 3 of 3099: pages of parameters, errors and serial number that are bad (9.4; GW-APP-35).
-        let is_bad = |bit: u8| self.gateway.eeprom_code >> bit & 1 == 1;
-        let (parameters, counters, serial) = (is_bad(5), is_bad(4), is_bad(3));
-        match parameters {
+    /// The gateway's program starts with what it has stored, as far as its pages are good (9.4; GW-APP-35).
+    fn start_gateway(&mut self, now: Instant) {
+        let found = self.gateway.eeprom_code.of_program();
+        self.gateway.eeprom_errors = found;
+        match found.loses_parameters() {
             true => self.parameters.start_with_defaults(Owner::Gateway),
             false => self.parameters.start(Owner::Gateway),
         }
-        self.gateway.start();
-        if counters && self.gateway.errors.clear_counters(&mut self.gateway.storage).is_err() {
+        self.gateway.start(now, self.faults.has(super::Fault::GatewayCanBus2));
+        if found.clears_error_memory()
+            && self.gateway.errors.clear_counters(&mut self.gateway.storage).is_err()
+        {
             self.events.push(super::Event::NotStored);
         }
-        if serial {
-            (self.gateway.identification.serial_date, self.gateway.identification.serial_number) = (0, 0);
-        }
         self.events.push(super::Event::Started(Owner::Gateway));
+        if !found.is_empty() {
+            self.events.push(super::Event::EepromErrors(found));
+        }
     }
 
     fn is_set(&self, parameter: Parameter) -> bool {
@@ -165,19 +175,23 @@ impl<G: Governor, S: Storage> Plant<G, S> {
         is_monitored && !self.hears_governor()
     }
 
-    /// Whether telegrams pass between the units (7.1.1, 7.2.1; GW-CFG-32 to GW-CFG-34).
-    pub(super) fn link_works(&self) -> bool {
-        let value = |parameter| self.parameters.effective().get(parameter);
-        !self.faults.iter().any(super::Fault::breaks_link)
-            && self.is_set(GATEWAY_LINK)
-            && self.is_set(GOVERNOR_LINK)
-            && value(GATEWAY_NUMBER) == value(GATEWAY_NUMBER_OF_GOVERNOR)
-            && value(GOVERNOR_NUMBER) == value(GOVERNOR_NUMBER_OF_GATEWAY)
+    /// Whether the programs of both units run.
+    fn both_run(&self) -> bool {
+        self.governor.unit.is_on() && self.gateway.unit.is_on()
     }
 
-    /// Whether the gateway gets telegrams of the governor now.
+    /// Whether both units are on the HEINZMANN bus with different bit rates, which disturbs every frame there (7.2.1, 9.4
+    /// on 3070; GW-APP-50).
+    pub(super) fn bit_rates_clash(&self) -> bool {
+        let is_used = self.is_set(GATEWAY_LINK) || self.is_set(GOVERNOR_LINK);
+        self.both_run() && is_used && self.parameters.effective().bit_rates_differ()
+    }
+
+    /// Whether the gateway gets telegrams of the governor now (7.1.1, 7.2.1; GW-CFG-32 to GW-CFG-34, GW-CFG-46).
     pub(super) fn hears_governor(&self) -> bool {
-        self.governor.unit.is_on() && self.gateway.unit.is_on() && self.link_works()
+        self.both_run()
+            && !self.faults.iter().any(super::Fault::breaks_link)
+            && self.parameters.effective().hindrances().next().is_none()
     }
 
     /// The monitoring of active RPDOs runs in operational (7.1.5; GW-APP-09).

@@ -24,6 +24,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         match to {
             State::Undefined => {
                 self.plant.governor.attempts = INITIALISATION_ATTEMPTS;
+                self.plant.governor.refusal = None;
                 self.lead(now, Phase::Undefined);
             }
             State::Init => {
@@ -83,6 +84,7 @@ impl<G: Governor, S: Storage> Plant<G, S> {
             Ok(table) => self.governor.accepted = Some(table),
             Err(reason) => {
                 self.governor.attempts += 1;
+                self.governor.refusal = Some(reason);
                 let attempt = self.governor.attempts;
                 self.events.push(Event::InitialisationFailed { attempt, reason });
                 self.set_can_open(CanOpenError::Init, true);
@@ -107,6 +109,8 @@ impl<G: Governor, S: Storage> Plant<G, S> {
     fn make_ready(&mut self, table: PdoTable) {
         self.governor.attempts = 0;
         self.gateway.pdos = Some(table);
+        // Nothing has been sent since this initialisation (GW-GAP-10, GW-NOTE-46).
+        self.governor.sent = [None; 3];
         self.gateway.traffic = Default::default();
         self.enter_phase(Phase::Ready);
     }

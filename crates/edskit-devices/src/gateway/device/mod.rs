@@ -13,6 +13,7 @@ mod view;
 
 use super::configuration::{Configuration, OutOfRange};
 use super::dictionary::canopen_gateway::Dictionary;
+use super::eeprom::EepromErrors;
 use super::event::{Event, Events};
 use super::fault::{Fault, Faults};
 use super::governor::Governor;
@@ -127,6 +128,14 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
     /// The PC tool has a unit store its parameters.
     pub fn store(&mut self, unit: Owner) {
         self.plant.parameters.store(unit);
+        if unit == Owner::Gateway {
+            self.plant.gateway.last_tool = self.plant.gateway.tool;
+        }
+    }
+
+    /// A PC program or hand programmer with this identification number is connected, 3850 Identifier (8.3; GW-APP-52).
+    pub fn connect_tool(&mut self, identifier: u16) {
+        self.plant.gateway.tool = identifier;
     }
 
     /// A unit gets its supply; nothing happens where it has it.
@@ -159,9 +168,15 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
 
     fn start(&mut self, now: Instant, unit: Owner) {
         self.plant.unit_mut(unit).switch_on(now);
-        // Bit 0 of 3099: the bootloader's own page is bad, and it does not leave the bootloader (GW-APP-35).
-        if unit == Owner::Gateway && self.plant.gateway.eeprom_code & 1 != 0 {
+        if unit == Owner::Governor {
+            return;
+        }
+        // The bootloader finds its own page at once, the program the others when it starts.
+        let found = self.plant.gateway.eeprom_code;
+        if found.holds_in_bootloader() {
             self.plant.gateway.unit.hold();
+            self.plant.gateway.eeprom_errors = found;
+            self.plant.events.push(Event::EepromErrors(found));
         }
     }
 
@@ -194,8 +209,8 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
     }
 
     /// What the next start of the gateway finds in its EEPROM: the bits of 3099 (9.4; GW-APP-35).
-    pub fn set_eeprom_code(&mut self, code: u8) {
-        self.plant.gateway.eeprom_code = code;
+    pub fn set_eeprom_code(&mut self, code: impl Into<u16>) {
+        self.plant.gateway.eeprom_code = EepromErrors(code.into());
     }
 
     /// The governor's model.
@@ -238,11 +253,12 @@ impl<G: Governor, S: Storage> Device for Gateway<G, S> {
         self.run_cycles(now);
         self.node.poll(now, &mut self.plant);
         self.follow_up(now);
-        self.probe(now);
+        self.try_bus(now);
     }
 
     fn transmit(&mut self) -> Option<Frame> {
-        if let Some(frame) = self.plant.gateway.probe_frame.take() {
+        let attempt = self.plant.gateway.attempt_frame.take();
+        if let Some(frame) = attempt.filter(|_| self.plant.gateway.unit.is_on()) {
             return Some(frame);
         }
         loop {
@@ -259,6 +275,6 @@ impl<G: Governor, S: Storage> Device for Gateway<G, S> {
             return now;
         }
         let units = self.plant.governor.unit.next().min(self.plant.gateway.unit.next());
-        units.min(self.plant.next_probe()).min(self.node.next_deadline(now)).max(now)
+        units.min(self.plant.next_attempt()).min(self.node.next_deadline(now)).max(now)
     }
 }

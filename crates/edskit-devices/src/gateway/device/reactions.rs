@@ -3,16 +3,15 @@
 use super::super::error::{CanOpenError, GatewayError};
 use super::super::event::Event;
 use super::super::governor::Governor;
+use super::super::standstill::Standstill;
 use super::super::state::{Commander, State};
 use super::side::{Phase, Silence};
 use super::{Fault, Gateway, Plant};
-use edskit_runtime::{Frame, Instant, Microseconds, Storage};
+use edskit_runtime::{Frame, Instant, Storage};
 use edskit_types::{NmtState, Party};
 
 /// The supply below which 3085 ErrVoltage is told, in mV (9.4; GW-APP-34).
 const LEAST_SUPPLY: u16 = 7_500;
-/// How often a faulty CANopen bus is tried (9.5 on 12423; GW-APP-27).
-const PROBE: Microseconds = Microseconds::from_milliseconds(500);
 
 /// The bits of 2005h that are errors of a unit's CAN controllers, with those of the gateway.
 const MIRRORED: [(GatewayError, CanOpenError); 4] = [
@@ -29,7 +28,8 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
             return;
         }
         match fault {
-            Fault::ReceiveBuffer2 => self.receive_overflow(now),
+            Fault::CanOpenBuffer1 => self.receive_overflow(now, GatewayError::CanComm1),
+            Fault::ReceiveBuffer2 => self.receive_overflow(now, GatewayError::CanComm2),
             Fault::TransmitBuffer2 => self.transmit_overflow(now),
             Fault::GatewayCanBus2 => self.lose_bus(now),
             Fault::GatewayTransmitBuffer1 => self.plant.gateway.buffer_states[0] = true,
@@ -39,10 +39,11 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         self.update_errors(now);
     }
 
-    /// The receive buffer of CANopen has overflown: communication ends, and the governor initialises anew (9.5 on 12424;
-    /// GW-APP-28, GW-NOTE-34).
-    fn receive_overflow(&mut self, now: Instant) {
-        self.plant.set_error(GatewayError::CanComm2, true);
+    /// One of the two receive buffers of CANopen has overflown, that of the HEINZMANN side or that of the CANopen side:
+    /// communication ends, and the governor initialises anew (7.2.1, 9.5 on 12422 and 12424; GW-APP-28, GW-APP-49,
+    /// GW-NOTE-29, GW-NOTE-34).
+    fn receive_overflow(&mut self, now: Instant, error: GatewayError) {
+        self.plant.set_error(error, true);
         self.lead(now, Phase::Undefined);
     }
 
@@ -61,23 +62,29 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
         if self.state().follows(Commander::Gateway, State::PreOperational) {
             self.node.enter(now, NmtState::PreOperational, &mut self.plant);
         }
-        self.plant.gateway.probe = now + PROBE;
+        self.plant.gateway.lose_bus(now);
     }
 
-    /// Sends the boot-up message on a faulty bus, or a heartbeat where heartbeats are sent (GW-NOTE-33).
-    pub(super) fn probe(&mut self, now: Instant) {
-        if now < self.plant.next_probe() {
+    /// Tries the faulty bus where it is time to. Once the gateway is initialised, it sends the boot-up message then, or a
+    /// heartbeat where heartbeats are sent (9.5 on 12423; GW-APP-27, GW-NOTE-33).
+    pub(super) fn try_bus(&mut self, now: Instant) {
+        let is_faulty = self.plant.faults.has(Fault::GatewayCanBus2);
+        let is_tried = self.plant.gateway.unit.is_on() && self.plant.gateway.try_bus(now, is_faulty);
+        if !is_tried {
             return;
         }
-        let gateway = &mut self.plant.gateway;
-        gateway.probe = gateway.probe + PROBE;
+        // Its controller begins anew, so that nothing of what waits is sent.
+        while self.node.transmit().is_some() {}
+        if !self.state().communicates() {
+            return;
+        }
         let configuration = self.plant.parameters.effective();
         let state = match configuration.heartbeat() {
-            Some(_) => NmtState::PreOperational,
+            Some(_) => self.node.state(),
             None => NmtState::Initialising,
         };
         let can_id = Party::Heartbeat.predefined_can_id(configuration.node_id());
-        gateway.probe_frame = can_id.map(|can_id| Frame::new(can_id, &[state.code()]));
+        self.plant.gateway.attempt_frame = can_id.map(|can_id| Frame::new(can_id, &[state.code()]));
     }
 
     /// What the node has found out during a call.
@@ -127,6 +134,7 @@ impl<G: Governor, S: Storage> Plant<G, S> {
     /// Whether the cause of an error is present now.
     fn causes(&self, error: GatewayError) -> bool {
         match error {
+            GatewayError::CanBus1 if self.bit_rates_clash() => true,
             GatewayError::CanComm1 if self.misses(self.gateway.silence) => true,
             GatewayError::Voltage => self.gateway.supply < LEAST_SUPPLY,
             _ => self.faults.iter().any(|fault| fault.gateway_error() == Some(error)),
@@ -138,7 +146,9 @@ impl<G: Governor, S: Storage> Plant<G, S> {
         let is_on = self.governor.unit.is_on();
         is_on
             && match error {
-                CanOpenError::GovernorCanBus => self.faults.has(Fault::GovernorCanBus),
+                CanOpenError::GovernorCanBus => {
+                    self.faults.has(Fault::GovernorCanBus) || self.bit_rates_clash()
+                }
                 _ => self.faults.has(Fault::GovernorCanComm) || self.misses(self.governor.silence),
             }
     }
@@ -151,12 +161,19 @@ impl<G: Governor, S: Storage> Plant<G, S> {
     /// Whether communication on CANopen is impossible: the cause of a fault between the units is present, or an error of
     /// the gateway itself has not been cleared (9.4, 9.5; GW-APP-21, GW-APP-22, GW-APP-25, GW-APP-26, GW-APP-31).
     pub(super) fn is_blocked(&self) -> bool {
-        let between = [GatewayError::CanBus1, GatewayError::CanComm1];
-        let own = |error: GatewayError| error.leads_to_undefined() && !between.contains(&error);
-        between.into_iter().any(|error| self.causes(error))
-            || self.gateway.errors.present().any(own)
-            || self.governor_causes(CanOpenError::GovernorCanBus)
-            || self.governor_causes(CanOpenError::GovernorCanComm)
+        self.blocking_error().is_some()
+    }
+
+    /// The error that makes communication on CANopen impossible.
+    pub(super) fn blocking_error(&self) -> Option<Standstill> {
+        let causes = |error: &GatewayError| match error {
+            GatewayError::CanBus1 | GatewayError::CanComm1 => self.causes(*error),
+            _ => error.leads_to_undefined() && self.gateway.errors.is_present(*error),
+        };
+        let of_governor = [CanOpenError::GovernorCanBus, CanOpenError::GovernorCanComm];
+        let of_governor = || of_governor.into_iter().find(|error| self.governor_causes(*error));
+        let own = GatewayError::ALL.into_iter().find(causes).map(Standstill::Error);
+        own.or_else(|| of_governor().map(Standstill::GovernorError))
     }
 
     /// Clears what has no cause any more, on command or because operational is entered (9.2, 9.5; GW-APP-17, GW-APP-36).
@@ -203,20 +220,22 @@ impl<G: Governor, S: Storage> Plant<G, S> {
     /// The errors of both units, bit k for 3000 + k (9.1; GW-NOTE-05).
     pub(super) fn errors(&self) -> u128 {
         let gateway = self.gateway.errors.present().map(GatewayError::number);
-        let governor = [(3070, self.governor.can_bus_error), (3071, self.governor.can_comm_error)];
-        let governor = governor.into_iter().filter(|(_, is_present)| *is_present).map(|(number, _)| number);
-        let own = gateway.chain(governor).fold(0, |errors, number| errors | 1 << (number - 3000));
-        own | self.inputs().errors() | self.governor.model.errors()
+        let own = gateway.fold(0, |errors, number| errors | 1 << (number - 3000));
+        own | self.governor_errors() | self.inputs().errors() | self.governor.model.errors()
     }
 
-    /// When the faulty bus is tried next; never where the bus is not faulty or nothing would be sent.
-    pub(super) fn next_probe(&self) -> Instant {
-        let is_down = self.faults.has(Fault::GatewayCanBus2) && self.gateway.phase == Phase::Ready;
-        if is_down { self.gateway.probe } else { Instant::NEVER }
+    /// The errors of the governor's own CAN side, 3070 and 3071, in the same way.
+    pub(super) fn governor_errors(&self) -> u128 {
+        u128::from(self.governor.can_bus_error) << 70 | u128::from(self.governor.can_comm_error) << 71
     }
 
-    /// Whether frames pass between the gateway and CANopen.
+    /// When the faulty bus is tried next; never where it is in order.
+    pub(super) fn next_attempt(&self) -> Instant {
+        self.gateway.attempt.filter(|_| self.gateway.unit.is_on()).unwrap_or(Instant::NEVER)
+    }
+
+    /// Whether frames pass between the gateway and CANopen. A bus that is mended is used after the next attempt (GW-APP-46).
     pub(super) fn hears(&self) -> bool {
-        self.gateway.unit.is_on() && !self.faults.has(Fault::GatewayCanBus2)
+        self.gateway.unit.is_on() && self.gateway.attempt.is_none()
     }
 }

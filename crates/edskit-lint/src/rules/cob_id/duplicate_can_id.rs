@@ -3,7 +3,7 @@ use super::parameters::{self, Parameter};
 use crate::evaluate::{commissioned, node_ids};
 use crate::rule::rule;
 use crate::{Context, Report, Severity};
-use edskit_types::{CanId, Claim, IdentifierRules, NodeId, Opponent, Party, SdoRole, conflicts};
+use edskit_types::{CanId, Claim, CobId, IdentifierRules, NodeId, Opponent, Party, SdoRole, conflicts};
 use std::collections::HashMap;
 
 rule! {
@@ -93,6 +93,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for Collision { parties: [party, other], can_id } in found {
         // Of services without a COB-ID of their own nothing stands in the file.
         let Some(parameter) = values.get(&party).or_else(|| values.get(&other)) else { continue };
+        let listeners = [party, other].map(|party| listens(party, values.get(&party).copied(), first));
+        // Whoever listens to a service does not send it: the own EMCY message is one that somebody may wait for.
+        if listeners != [false; 2] && is_same_service(party, other) {
+            continue;
+        }
         let at = match commissioned(context) {
             None if parameter.value.depends_on_node_id() => format!(" at node-ID {first}"),
             _ => String::new(),
@@ -103,11 +108,30 @@ fn check(context: &Context<'_>, report: &mut Report) {
             finding.here(party.to_string()).label(second.value.span(), other.to_string());
         }
         let is_client = |party| matches!(party, Party::Sdo { role: SdoRole::Client, .. });
-        if party.is_rpdo() != other.is_rpdo() || is_client(party) || is_client(other) {
+        if listeners != [false; 2] || is_client(party) || is_client(other) {
             finding.severity(Severity::Warning);
         }
         finding.help("give one of the two another CAN-ID, or set bit 31 of the one that is not in use");
     }
+}
+
+/// Whether a device only receives a message.
+fn listens(party: Party, parameter: Option<&Parameter<'_>>, node_id: NodeId) -> bool {
+    match party {
+        Party::EmcyOf(_) | Party::HeartbeatOf(_) => true,
+        Party::Sync | Party::Time => {
+            let cob_id = parameter.and_then(|parameter| parameter.value.cob_id_at(node_id));
+            cob_id.is_some_and(|cob_id| cob_id.0 & CobId::BIT_30 == 0)
+        }
+        _ => party.is_rpdo(),
+    }
+}
+
+/// Whether both are EMCY messages, or both heartbeats, of whatever node.
+fn is_same_service(party: Party, other: Party) -> bool {
+    let is_emcy = |party| matches!(party, Party::Emcy | Party::EmcyOf(_));
+    let is_heartbeat = |party| matches!(party, Party::Heartbeat | Party::HeartbeatOf(_));
+    is_emcy(party) && is_emcy(other) || is_heartbeat(party) && is_heartbeat(other)
 }
 
 /// Two messages with one CAN-ID.
@@ -166,6 +190,11 @@ mod tests {
         );
         assert_eq!(
             found(&("[1005]\nDataType=7\nDefaultValue=0x90\n".to_owned() + &pdo("1800", "0x90"))),
+            ["8:14 warning: TPDO1 and SYNC both have the CAN-ID 090h"],
+            "the device only waits for SYNC"
+        );
+        assert_eq!(
+            found(&("[1005]\nDataType=7\nDefaultValue=0x40000090\n".to_owned() + &pdo("1800", "0x90"))),
             ["8:14 error: TPDO1 and SYNC both have the CAN-ID 090h"]
         );
         let sync = "[1005]\nDataType=7\nDefaultValue=0x80\n";
@@ -173,6 +202,21 @@ mod tests {
         assert!(found(&(pdo("1400", "0x205") + &pdo("1401", "0x205"))).is_empty());
         assert!(found(&(pdo("1800", "0x185") + &pdo("1801", "0x80000185"))).is_empty());
         assert!(found(&(pdo("1800", "0x180") + &pdo("1801", "0x180"))).is_empty(), "COB001");
+    }
+
+    #[test]
+    fn who_listens_does_not_send() {
+        let consumer =
+            |value: &str| format!("[1028]\nObjectType=8\n[1028sub1]\nDataType=7\nDefaultValue={value}\n");
+        let own = "[1014]\nDataType=7\nDefaultValue=$NODEID+0x80\n";
+        assert_eq!(found(&(own.to_owned() + &consumer("$NODEID+0x80"))), [""; 0]);
+        assert_eq!(
+            found(&(consumer("0x185") + &pdo("1800", "0x185"))),
+            ["10:14 warning: TPDO1 and EMCY of node 1 both have the CAN-ID 185h"]
+        );
+        let heartbeats = "[1016]\nObjectType=8\n[1016sub1]\nDataType=7\nDefaultValue=0x000503E8\n";
+        let dcf = format!("[DeviceComissioning]\nNodeID=5\n{heartbeats}");
+        assert_eq!(findings_in(&DUPLICATE_CAN_ID, "a.dcf", dcf.as_bytes()), [""; 0]);
     }
 
     #[test]

@@ -62,6 +62,17 @@ fn check(context: &Context<'_>, report: &mut Report) {
     }
 }
 
+/// How many communication parameters are listed and not described.
+fn listed_only(context: &Context<'_>, direction: PdoDirection) -> usize {
+    let block = pdos::block(direction);
+    let listing = context.listing();
+    let mut indices: Vec<_> = listing.items().iter().filter_map(|item| item.index).collect();
+    indices.retain(|index| block.contains(index) && !listing.is_described(*index));
+    indices.sort_unstable();
+    indices.dedup();
+    indices.len()
+}
+
 fn check_direction(
     context: &Context<'_>,
     info: DeviceInfo<'_>,
@@ -81,6 +92,10 @@ fn check_direction(
         // A mask that cannot be read may bring the rest, too.
         let has_implicit = info.compact_pdo().is_some_and(|mask| mask.known() != Some(0));
         let is_more = usize::from(claimed) > described;
+        // Those that are listed and have no section are the matter of LST004.
+        if usize::from(claimed) == described + listed_only(context, direction) {
+            return;
+        }
         if usize::from(claimed) == described || is_more && (has_implicit || context.is_modular()) {
             return;
         }

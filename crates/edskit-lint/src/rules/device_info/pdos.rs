@@ -1,5 +1,6 @@
 //! The PDOs that a file describes.
 
+use core::ops::RangeInclusive;
 use edskit_model::{Datasheet, Object};
 use edskit_types::{Index, PdoDirection};
 
@@ -11,11 +12,16 @@ pub(super) fn communication(
     sheet: &Datasheet,
     direction: PdoDirection,
 ) -> impl ExactSizeIterator<Item = Object<'_>> {
+    sheet.objects_in(block(direction))
+}
+
+/// Where communication parameters are.
+pub(super) fn block(direction: PdoDirection) -> RangeInclusive<Index> {
     let first = match direction {
         PdoDirection::Receive => Index::RPDO_COMMUNICATION,
         PdoDirection::Transmit => Index::TPDO_COMMUNICATION,
     };
-    sheet.objects_in(first..=Index(first.0 + MOST - 1))
+    first..=Index(first.0 + MOST - 1)
 }
 
 /// The described mapping parameters of both directions.

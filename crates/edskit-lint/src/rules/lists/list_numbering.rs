@@ -1,5 +1,6 @@
 use super::edits;
 use crate::listing::{Item, ItemKey, List};
+use crate::numbering::one_wrong;
 use crate::rule::rule;
 use crate::{Context, Edit, Finding, Report};
 use edskit_model::KeyName;
@@ -60,9 +61,41 @@ fn check(context: &Context<'_>, report: &mut Report) {
             let finding = report.add(item.key_span(context.document()), message);
             finding.help(format!("write `{number}`"));
             renumber(context, list, finding);
+        } else if let Some((item, due)) = wrong_key(items) {
+            report_wrong_key(context, item, due, report);
         } else if let Some(gap) = gap(items) {
             report_gap(context, list, gap, report);
         }
+    }
+}
+
+/// The only item whose key is not the number of its place, and that number. One that stands twice is the matter of
+/// SYN014.
+fn wrong_key(items: &[Item]) -> Option<(&Item, u16)> {
+    let (place, due) = one_wrong(items.iter().map(|item| item.number().unwrap_or_default()))?;
+    let number = items[place].number()?;
+    let stands_twice = items.iter().filter(|item| item.number() == Some(number)).count() > 1;
+    // At the end of a list the items before it may have got lost as well.
+    (!stands_twice && place + 1 < items.len()).then_some((&items[place], due))
+}
+
+fn report_wrong_key(context: &Context<'_>, item: &Item, due: u16, report: &mut Report) {
+    let document = context.document();
+    let key = item.key_span(document);
+    let message = format!(
+        "item {} of `[{}]` stands in the place of item {due}",
+        context.sheet.text(key),
+        item.list.name()
+    );
+    let finding = report.add(key, message);
+    finding.here(format!("{due} is due here")).help(format!("write `{due}` for the key"));
+    let items = context.listing().items_of(item.list);
+    let edits = vec![Edit::replace(key, due.to_string())];
+    let section = item.list.section(context.sheet);
+    if section.is_some_and(|section| edits::count(context, section, items.len()).is_none()) {
+        finding.safe_fix("Write the number that is due", edits);
+    } else {
+        finding.unsafe_fix("Write the number that is due", edits);
     }
 }
 
@@ -189,6 +222,28 @@ mod tests {
             assert_eq!(applicability(&text), Some(Applicability::Safe));
             let good = "[OptionalObjects]\nSupportedObjects=2\n1=0x1005\n2=0x1006\n";
             assert_eq!(fixed(&LIST_NUMBERING, &text), good);
+        }
+    }
+
+    #[test]
+    fn the_one_key_that_breaks_a_list_is_named() {
+        let mut text = "[OptionalObjects]\nSupportedObjects=24\n".to_owned();
+        for number in 1..=24 {
+            text += &format!("{number}=0x{:04X}\n", 0x6000 + number);
+        }
+        for (old, new) in [("12=", "99="), ("1=", "77="), ("5=", "0=")] {
+            let wrong = text.replacen(&format!("\n{old}"), &format!("\n{new}"), 1);
+            let found = findings(&LIST_NUMBERING, &wrong);
+            let (line, key) =
+                (2 + old.trim_end_matches('=').parse::<usize>().unwrap(), new.trim_end_matches('='));
+            let due = line - 2;
+            assert_eq!(
+                found,
+                [format!(
+                    "{line}:1 error: item {key} of `[OptionalObjects]` stands in the place of item {due}"
+                )]
+            );
+            assert_eq!(fixed(&LIST_NUMBERING, &wrong), text);
         }
     }
 

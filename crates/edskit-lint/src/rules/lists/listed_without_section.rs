@@ -1,7 +1,7 @@
 use crate::listing::Item;
 use crate::rule::rule;
 use crate::{Context, Report};
-use edskit_model::{Datasheet, ModuleSection, SectionKind};
+use edskit_model::{Datasheet, ModuleSection, Section, SectionKind};
 use edskit_types::{Index, PdoDirection, SubIndex};
 use std::collections::HashSet;
 
@@ -63,16 +63,46 @@ fn check(context: &Context<'_>, report: &mut Report) {
         SectionKind::Object(index) => Some(*index),
         _ => None,
     }));
-    for item in lacking {
-        let Some(index) = item.index.filter(|index| !elsewhere.contains(index)) else { continue };
+    let lacking: Vec<(&Item, Index)> = lacking
+        .filter_map(|item| Some((item, item.index.filter(|index| !elsewhere.contains(index))?)))
+        .collect();
+    let end = cut_off(context, &lacking);
+    for (position, (item, index)) in lacking.into_iter().enumerate() {
         let section = format!("`[{index:X}]`");
-        report
-            .add(
-                item.value_span(context.document()),
-                format!("{index} is listed, but has no section {section}"),
-            )
-            .help(format!("describe the object in a section {section}, or take it out of the list"));
+        let end = end.filter(|_| position == 0);
+        let early = if end.is_some() { ": the file ends early" } else { "" };
+        let finding = report.add(
+            item.value_span(context.document()),
+            format!("{index} is listed, but has no section {section}{early}"),
+        );
+        match end {
+            Some(last) => {
+                finding
+                    .label(last.span(), "the last section")
+                    .help("the file is cut off: everything that is listed behind its last section is missing; get it whole from its source");
+            }
+            None => {
+                finding
+                    .help(format!("describe the object in a section {section}, or take it out of the list"));
+            }
+        }
     }
+}
+
+/// The last section of a file that ends early: of the listed objects those are missing that come behind it, in the order
+/// of the lists or of their indices, and at least two.
+fn cut_off<'a>(context: &Context<'a>, lacking: &[(&Item, Index)]) -> Option<Section<'a>> {
+    let last = context.sheet.sections().last()?;
+    let index = last.kind().index()?;
+    let items = context.listing().items();
+    let place = items.iter().position(|item| item.index == Some(index))?;
+    let mut tail = items[place + 1..].iter().filter_map(|item| item.index);
+    let is_end_of_lists =
+        tail.clone().count() == lacking.len() && tail.all(|index| !context.listing().is_described(index));
+    let behind = items.iter().filter(|item| item.index.is_some_and(|other| other > index)).count();
+    let is_end_of_indices = behind == lacking.len() && lacking.iter().all(|(_, missing)| *missing > index);
+    let is_tail = is_end_of_lists || is_end_of_indices;
+    (lacking.len() > 1 && is_tail).then_some(last)
 }
 
 /// Objects that need no section of their own, or whose lack of one is the matter of OBJ010.
@@ -105,6 +135,25 @@ mod tests {
                 "2:3 error: 2000h is listed, but has no section `[2000]`",
                 "4:3 error: 2002h is listed, but has no section `[2002]`"
             ]
+        );
+    }
+
+    #[test]
+    fn a_file_that_ends_early_is_told_once() {
+        let help = |text: &str| -> Vec<bool> {
+            let sheet = Datasheet::parse(text.as_bytes());
+            let findings = crate::testing::lint(&LISTED_WITHOUT_SECTION, "a.eds", &sheet);
+            findings.iter().map(|finding| finding.help.as_deref().unwrap().contains("cut off")).collect()
+        };
+        let lists =
+            "[OptionalObjects]\n1=0x1017\n2=0x6000\n3=0x6001\n[ManufacturerObjects]\n1=0x2000\n2=0x2001\n";
+        assert_eq!(help(&format!("{lists}[1017]\n[6000]\n[6000sub1]\n")), [true, false, false]);
+        assert_eq!(help(&format!("{lists}[1017]\n[2000]\n[2001]\n")), [true, false], "sorted by index");
+        assert_eq!(help(&format!("{lists}[1017]\n[6001]\n")), [false; 3], "6000h is missing before the end");
+        assert_eq!(
+            help(&format!("{lists}[1017]\n[6000]\n[6001]\n[2000]\n")),
+            [false],
+            "one may be a mistake"
         );
     }
 

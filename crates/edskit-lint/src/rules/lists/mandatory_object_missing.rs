@@ -1,7 +1,9 @@
 use crate::listing::{List, MANDATORY};
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::wording::series;
 use crate::{Context, Report, Severity};
+use edskit_model::SectionKind;
 use edskit_types::Index;
 
 rule! {
@@ -64,7 +66,11 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     let listing = context.listing();
-    let is_missing = |index: &Index| !listing.is_described(*index) && !listing.is_listed(*index);
+    let is_missing = |index: &Index| {
+        !listing.is_described(*index)
+            && !listing.is_listed(*index)
+            && !lost_header::hides(context, SectionKind::Object(*index))
+    };
     let missing: Vec<Index> = MANDATORY.into_iter().filter(is_missing).collect();
     let mut lists = List::ALL.into_iter().filter_map(|list| list.section(context.sheet));
     let (false, Some(list)) = (missing.is_empty(), lists.next()) else { return };

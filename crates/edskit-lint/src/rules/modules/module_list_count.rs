@@ -1,4 +1,5 @@
 use super::parts::count_entry;
+use crate::numbering::one_wrong;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
 use edskit_model::{KeyName, ModuleSection, Section, SectionKind, Span};
@@ -79,6 +80,14 @@ fn check_list(section: Section<'_>, report: &mut Report) {
                 format!("Write {}", numbers.len()),
                 vec![Edit::replace(entry.value_span(), numbers.len().to_string())],
             );
+    } else if let Some((key, due)) = wrong_key(section) {
+        report
+            .add(
+                key,
+                format!("item {} of `[{name}]` stands in the place of item {due}", section.sheet().text(key)),
+            )
+            .help(format!("write `{due}` for the key"))
+            .unsafe_fix(format!("Write {due}"), vec![Edit::replace(key, due.to_string())]);
     } else if let Some((missing, (next, place))) =
         (1..=count).zip(&numbers).find(|(due, (number, _))| due != number)
     {
@@ -86,6 +95,13 @@ fn check_list(section: Section<'_>, report: &mut Report) {
             .add(*place, format!("`[{name}]` has an item {next}, but no item {missing}"))
             .help(format!("number the items from 1 to {count}"));
     }
+}
+
+/// The only key that is not the number of its place, and that number.
+fn wrong_key(section: Section<'_>) -> Option<(Span, u16)> {
+    let items = || section.all_numbered(KeyName::Item).filter(|item| !item.is_empty());
+    let (place, due) = one_wrong(items().map(|item| item.key().number))?;
+    Some((items().nth(place)?.key_span(), due))
 }
 
 #[cfg(test)]
@@ -107,6 +123,10 @@ mod tests {
         );
         assert_eq!(
             found("NrOfEntries=2\n1=1\n3=1"),
+            ["4:1 error: item 3 of `[ConnectedModules]` stands in the place of item 2"]
+        );
+        assert_eq!(
+            found("NrOfEntries=3\n1=1\n3=1\n4=1"),
             ["4:1 error: `[ConnectedModules]` has an item 3, but no item 2"]
         );
         assert_eq!(found("1=1\n2=1"), ["1:1 error: `[ConnectedModules]` has 2 items, but no `NrOfEntries`"]);

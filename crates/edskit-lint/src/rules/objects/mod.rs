@@ -6,6 +6,8 @@ mod array_mixed_types;
 mod compact_and_sub_number;
 mod compact_list_mismatch;
 mod data_type_missing;
+mod decimal_sub_index;
+mod domain_incomplete;
 mod duplicate_name;
 mod key_not_supported;
 mod obj_flags_redundant;
@@ -19,7 +21,7 @@ mod pdo_mapping_unmappable;
 mod process_access_unmapped;
 mod record_as_array;
 mod save_objects_flags;
-mod structure;
+pub(crate) mod structure;
 mod sub0_limit_undescribed;
 mod sub0_missing;
 mod sub0_not_u8;
@@ -61,4 +63,6 @@ pub(super) const RULES: &[&Rule] = &[
     &duplicate_name::DUPLICATE_NAME,
     &sub0_limit_undescribed::SUB0_LIMIT_UNDESCRIBED,
     &sub_index_too_large::SUB_INDEX_TOO_LARGE,
+    &decimal_sub_index::DECIMAL_SUB_INDEX,
+    &domain_incomplete::DOMAIN_INCOMPLETE,
 ];

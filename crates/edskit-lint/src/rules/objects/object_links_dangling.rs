@@ -1,9 +1,10 @@
 use super::words::is_are;
 use crate::edits::number_like;
+use crate::numbering::one_wrong;
 use crate::rule::rule;
 use crate::wording::count;
 use crate::{Context, Edit, Report};
-use edskit_model::{KeyName, Section, SectionKind};
+use edskit_model::{Entry, KeyName, Section, SectionKind};
 use edskit_types::Index;
 
 rule! {
@@ -11,8 +12,9 @@ rule! {
     ///
     /// ## What it does
     /// Looks at `[xxxxObjectLinks]`. It reports a link to an object that is not described, links of an object that is
-    /// not described, and an `ObjectLinks` that is missing or is not the number of links. In the file of a modular
-    /// device the modules may bring the objects, so there only the number is checked.
+    /// not described, an `ObjectLinks` that is missing or is not the number of links, and a link whose key is not the
+    /// number of its place. In the file of a modular device the modules may bring the objects, so there only the numbers
+    /// are checked.
     ///
     /// ## Why is this bad
     /// The links group objects that belong together. A link that leads nowhere is left over from an earlier edition or
@@ -67,6 +69,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     for section in context.sheet.other_sections() {
         let SectionKind::ObjectLinks(index) = section.kind() else { continue };
         check_count(section, report);
+        check_numbers(section, report);
         if context.is_modular() {
             continue;
         }
@@ -112,6 +115,24 @@ fn check_count(section: Section<'_>, report: &mut Report) {
         .unsafe_fix("Write the number of links", vec![Edit::replace(field.span(), number)]);
 }
 
+/// The one key that breaks the numbering; one that stands twice is the matter of SYN014.
+fn check_numbers(section: Section<'_>, report: &mut Report) {
+    let links: Vec<Entry<'_>> = section.all_numbered(KeyName::Item).collect();
+    let Some((place, due)) = one_wrong(links.iter().map(|link| link.key().number)) else { return };
+    let Some(link) = links.get(place) else { return };
+    if links.iter().filter(|other| other.key().number == link.key().number).count() > 1 {
+        return;
+    }
+    let key = link.key_text();
+    report
+        .add(
+            link.key_span(),
+            format!("link {key} of `[{}]` stands in the place of link {due}", section.name()),
+        )
+        .help(format!("write `{due}` for the key"))
+        .unsafe_fix("Write the number that is due", vec![Edit::replace(link.key_span(), due.to_string())]);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,6 +155,16 @@ mod tests {
             ["4:13 warning: ObjectLinks is 5, but 1 link is listed"]
         );
         assert_eq!(fixed(&OBJECT_LINKS_DANGLING, wrong), wrong.replace("=5\n1", "=1\n1"));
+    }
+
+    #[test]
+    fn links_are_numbered() {
+        let text = "[2000]\nDataType=5\n[2000ObjectLinks]\nObjectLinks=3\n1=0x2000\n9=0x2000\n3=0x2000\n";
+        assert_eq!(
+            findings(&OBJECT_LINKS_DANGLING, text),
+            ["6:1 warning: link 9 of `[2000ObjectLinks]` stands in the place of link 2"]
+        );
+        assert_eq!(fixed(&OBJECT_LINKS_DANGLING, text), text.replace("9=", "2="));
     }
 
     #[test]

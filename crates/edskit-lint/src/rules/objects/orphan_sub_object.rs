@@ -63,7 +63,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
         sheet.sub_objects().filter(|sub| sheet.object(sub.index()).is_none()).collect();
     for group in orphans.chunk_by(|a, b| a.index() == b.index()) {
         let Some(first) = group.iter().min_by_key(|sub| sub.section().id()) else { continue };
-        // The object's header stands behind other text: that is the matter of SYN008.
+        // The object's header is not where it must be: that is the matter of SYN008 or SYN023.
         if lost_header::hides(context, SectionKind::Object(first.index())) {
             continue;
         }

@@ -117,17 +117,32 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     };
     let message = format!("sub-index 00h of {} is {}, but {described}", object.index(), field.text());
     let value = number_like(highest.into(), field.entry.raw());
+    let mut edits = vec![Edit::replace(field.span(), value.clone())];
+    edits.extend(widened_limits(sub0.description(), highest));
+    edits.sort_by_key(|edit| edit.span);
     report
         .add(field.span(), message)
         .severity(severity)
         .label(last.section().span(), "the highest one")
         .help(format!("write `DefaultValue={value}`, or describe what the object really has"))
-        .unsafe_fix("Write the highest described sub-index", vec![Edit::replace(field.span(), value)]);
+        .unsafe_fix("Write the highest described sub-index", edits);
 }
 
 /// Lists whose sub-index 00h tells how many elements are in use just now.
 fn changes_at_run_time(index: Index) -> bool {
     index == Index::PREDEFINED_ERROR_FIELD || matches!(index.0, 0x1600..=0x17FF | 0x1A00..=0x1BFF)
+}
+
+/// Edits that let the limits hold the value, where they do not: a value outside of them would be the next mistake.
+fn widened_limits(sub0: Description<'_>, highest: u8) -> impl Iterator<Item = Edit> {
+    let highest = i128::from(highest);
+    let limits = [(sub0.low_limit(), false), (sub0.high_limit(), true)];
+    limits.into_iter().filter_map(move |(limit, is_upper)| {
+        let limit = limit?;
+        let Ok(Value::Integer(number)) = limit.value else { return None };
+        let excludes = if is_upper { number.value() < highest } else { number.value() > highest };
+        excludes.then(|| Edit::replace(limit.span(), number_like(highest as u64, limit.entry.raw())))
+    })
 }
 
 /// Whether limits say that the value moves up to at least what is described. The whole range of UNSIGNED8 says nothing.
@@ -180,6 +195,19 @@ mod tests {
         );
         let text = object("2000", 9, "AccessType=const\nDefaultValue=0x05", &["1", "2"]);
         assert_eq!(fixed(&SUB0_WRONG_VALUE, &text), text.replace("0x05", "0x02"));
+    }
+
+    #[test]
+    fn limits_that_would_exclude_the_value_are_mended_with_it() {
+        let text =
+            object("2000", 9, "AccessType=ro\nLowLimit=0x01\nDefaultValue=3\nHighLimit=0x03", &["1", "5"]);
+        let mended = text.replace("DefaultValue=3\nHighLimit=0x03", "DefaultValue=5\nHighLimit=0x05");
+        assert_eq!(fixed(&SUB0_WRONG_VALUE, &text), mended);
+        let text = object("2000", 9, "AccessType=ro\nDefaultValue=9\nLowLimit=4", &["1", "2"]);
+        assert_eq!(
+            fixed(&SUB0_WRONG_VALUE, &text),
+            text.replace('9', "2").replace("Type=2", "Type=9").replace("=4", "=2")
+        );
     }
 
     #[test]

@@ -1,5 +1,7 @@
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
+use edskit_model::SectionKind;
 use edskit_types::Index;
 
 rule! {
@@ -71,6 +73,10 @@ fn check(context: &Context<'_>, report: &mut Report) {
             }
             _ => continue,
         };
+        // One that a list names is the matter of LST004, one whose header is misspelt that of SYN008 or SYN023.
+        if context.listing().is_listed(other) || lost_header::hides(context, SectionKind::Object(other)) {
+            continue;
+        }
         report
             .add(object.span(), message)
             .help(format!("describe {other}, or take {} out if there is no {pdo}", object.index()));

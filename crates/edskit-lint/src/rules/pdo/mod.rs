@@ -5,6 +5,7 @@ mod double_mapping;
 mod dummy;
 mod dummy_invalid;
 mod dummy_not_enabled;
+mod dummy_usage_incomplete;
 mod granularity_violated;
 mod group_messaging;
 mod incomplete_pdo;
@@ -58,4 +59,5 @@ pub(super) const RULES: &[&Rule] = &[
     &compact_pdo_unused::COMPACT_PDO_UNUSED,
     &mapping_needs_cob_id::MAPPING_NEEDS_COB_ID,
     &pdo_parameter_missing::PDO_PARAMETER_MISSING,
+    &dummy_usage_incomplete::DUMMY_USAGE_INCOMPLETE,
 ];

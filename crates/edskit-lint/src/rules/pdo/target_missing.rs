@@ -1,7 +1,9 @@
 use crate::pdos::{DescribedPdo, Mapped, Target};
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
-use edskit_types::{Index, ObjectArea};
+use edskit_model::{Object, SectionKind};
+use edskit_types::{Index, ObjectArea, SubIndex};
 
 rule! {
     /// A mapped object does not exist
@@ -83,14 +85,21 @@ fn check(context: &Context<'_>, report: &mut Report) {
 fn check_entry(context: &Context<'_>, pdo: &DescribedPdo<'_>, mapped: &Mapped<'_>, report: &mut Report) {
     let (index, sub_index) = (mapped.entry.index(), mapped.entry.sub_index());
     match mapped.target {
-        Target::NoObject if !is_dynamic(context, index) => {
+        // One that a list names is the matter of LST004, one whose header is misspelt that of SYN008 or SYN023.
+        Target::NoObject
+            if !is_dynamic(context, index)
+                && !context.listing().is_listed(index)
+                && !lost_header::hides(context, SectionKind::Object(index)) =>
+        {
             report
                 .add(mapped.value.span(), format!("{pdo} maps {index}, which is not described"))
                 .here(format!("entry {} of the mapping", mapped.sub_index.0))
                 .help(format!("describe {index}, or map another object"));
         }
         // Of an object whose code cannot be read, nobody knows what it has.
-        Target::NoSubIndex(object) if object.object_code().is_some() => {
+        Target::NoSubIndex(object)
+            if object.object_code().is_some() && !is_named_otherwise(context, object, sub_index) =>
+        {
             let help = match object.sub_objects().next_back() {
                 Some(last) => format!("the highest described sub-index is {}", last.sub_index()),
                 None if object.object_code().is_some_and(|code| code.has_sub_objects()) => {
@@ -113,6 +122,11 @@ fn check_entry(context: &Context<'_>, pdo: &DescribedPdo<'_>, mapped: &Mapped<'_
         }
         _ => {}
     }
+}
+
+/// Whether the sub-object is described under a misspelt name, which another rule reports.
+fn is_named_otherwise(context: &Context<'_>, object: Object<'_>, sub_index: SubIndex) -> bool {
+    lost_header::hides(context, SectionKind::SubObject(object.index(), sub_index))
 }
 
 /// Whether an index belongs to network variables, which a programming system makes and no EDS describes.

@@ -1,13 +1,15 @@
-use crate::pdos::Target;
+use crate::pdos::{DescribedPdo, Target};
 use crate::rule::rule;
 use crate::{Context, Report, Severity};
+use edskit_model::{KeyName, SubObject};
 
 rule! {
-    /// A counted mapping entry is 0
+    /// A counted mapping entry is 0 or has no value
     ///
     /// ## What it does
-    /// Reports an entry of 0 among those that sub-index 00h of a mapping parameter counts. It is a warning where the
-    /// PDO is not in use, and where all of them are 0: then sub-index 00h may stand for the room for entries.
+    /// Reports an entry of 0 among those that sub-index 00h of a mapping parameter counts, and one that is described
+    /// there without a value. It is a warning where there is no value, where the PDO is not in use, and where all of
+    /// them are 0: then sub-index 00h may stand for the room for entries.
     ///
     /// ## Why is this bad
     /// The entry names no object. Devices refuse such a mapping, and tools stop decoding the PDO there.
@@ -68,6 +70,7 @@ rule! {
 
 fn check(context: &Context<'_>, report: &mut Report) {
     for pdo in context.pdos() {
+        without_value(pdo, report);
         let mut zeros = pdo.mapped().iter().filter(|entry| matches!(entry.target, Target::Zero));
         let (Some(first), Some(count)) = (zeros.next(), pdo.count) else { continue };
         let last = zeros.next_back().unwrap_or(first);
@@ -92,6 +95,35 @@ fn check(context: &Context<'_>, report: &mut Report) {
     }
 }
 
+/// Reports the counted entries that are described and have no value.
+fn without_value(pdo: &DescribedPdo<'_>, report: &mut Report) {
+    let (Some(mapping), Some(count), Some(number)) = (pdo.mapping, pdo.count, pdo.mapped_count()) else {
+        return;
+    };
+    if mapping.compact_count() > 0 {
+        return;
+    }
+    let has_value = |sub: &SubObject<'_>| {
+        let keys = [KeyName::ParameterValue, KeyName::DefaultValue];
+        keys.into_iter().any(|key| sub.section().filled(key).is_some())
+    };
+    let counted = mapping.sub_objects().filter(|sub| (1..=number).contains(&sub.sub_index().0));
+    let mut empty = counted.filter(|sub| !has_value(sub));
+    let Some(first) = empty.next() else { return };
+    let last = empty.next_back().map_or(first.sub_index(), |sub| sub.sub_index());
+    let which = if first.sub_index() == last {
+        format!("entry {} of {pdo} has", last.0)
+    } else {
+        format!("entries {} to {} of {pdo} have", first.sub_index().0, last.0)
+    };
+    let finding = report.add(first.span(), format!("{which} no value, but the mapping has {number}"));
+    // The device may have a value that the file does not know.
+    finding.severity(Severity::Warning);
+    finding.label(count.span(), "the number of mapped entries");
+    let used = first.sub_index().0 - 1;
+    finding.help(format!("write {used} there, or name an object here"));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,6 +137,29 @@ mod tests {
             text += &format!("[1600sub{}]\nDataType=7\nDefaultValue={entry}\n", sub + 1);
         }
         findings(&ZERO_ENTRY, &text)
+    }
+
+    #[test]
+    fn what_is_counted_needs_a_value() {
+        for cob_id in ["0x205", "0x80000205"] {
+            assert_eq!(
+                found(cob_id, "4", &["", "", "", ""]),
+                ["11:1 warning: entries 1 to 4 of RPDO1 have no value, but the mapping has 4"]
+            );
+        }
+        assert_eq!(
+            found("0x205", "2", &["0x20000010", ""]),
+            ["14:1 warning: entry 2 of RPDO1 has no value, but the mapping has 2"]
+        );
+        assert!(found("0x205", "1", &["0x20000010", ""]).is_empty());
+        let transmit =
+            "[1A00]\nObjectType=9\n[1A00sub0]\nDataType=5\nDefaultValue=1\n[1A00sub1]\nDataType=7\n";
+        assert_eq!(
+            findings(&ZERO_ENTRY, transmit),
+            ["6:1 warning: entry 1 of TPDO1 has no value, but the mapping has 1"]
+        );
+        let configured = format!("{transmit}ParameterValue=0x20000010\n");
+        assert_eq!(crate::testing::findings_in(&ZERO_ENTRY, "a.dcf", configured.as_bytes()), [""; 0]);
     }
 
     #[test]

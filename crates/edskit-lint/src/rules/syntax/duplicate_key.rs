@@ -1,7 +1,8 @@
 use super::lost_header;
+use crate::numbering::one_wrong;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Severity};
-use edskit_model::{Entry, Key, KeyName, Section};
+use edskit_model::{Entry, Key, KeyName, Section, SectionKind};
 use std::collections::hash_map::{self, HashMap};
 
 rule! {
@@ -69,8 +70,12 @@ fn may_repeat(section: Section<'_>) -> bool {
     false
 }
 
+/// For so many doubled keys of a section the one that is due is looked for. Where there are more, the list is no list.
+const MOST_LOOKED_AT: usize = 16;
+
 fn check_section(context: &Context<'_>, section: Section<'_>, report: &mut Report) {
     let mut known = HashMap::new();
+    let mut found = 0;
     for entry in section.entries() {
         // What follows a header that lost its line belongs to that section; see SYN008.
         if entry.raw().ends_with(b"]") && lost_header::on_line(context, entry.line_number()).is_some() {
@@ -81,12 +86,16 @@ fn check_section(context: &Context<'_>, section: Section<'_>, report: &mut Repor
             hash_map::Entry::Vacant(free) => {
                 free.insert(entry);
             }
-            hash_map::Entry::Occupied(first) => repeated(*first.get(), entry, report),
+            hash_map::Entry::Occupied(first) => {
+                found += 1;
+                let due = if found <= MOST_LOOKED_AT { due_key(section, entry) } else { None };
+                repeated(*first.get(), entry, due, report);
+            }
         }
     }
 }
 
-fn repeated(first: Entry<'_>, again: Entry<'_>, report: &mut Report) {
+fn repeated(first: Entry<'_>, again: Entry<'_>, due: Option<String>, report: &mut Report) {
     let key = again.key_text();
     let same = first.raw() == again.raw();
     let message = if same {
@@ -101,9 +110,39 @@ fn repeated(first: Entry<'_>, again: Entry<'_>, report: &mut Report) {
             .severity(Severity::Warning)
             .help("delete one of the two")
             .safe_fix("Delete the second one", vec![Edit::delete(again.line().full_span())]);
+    } else if let Some(key) = due {
+        let own = format!("{key}={}", again.text());
+        finding
+            .help(format!("write `{own}` if it has a place of its own, or delete one of the two"))
+            .unsafe_fix(format!("Write `{own}`"), vec![Edit::replace(again.key_span(), key)]);
     } else {
         finding.help("keep the value that was meant, and delete the other entry");
     }
+}
+
+/// The key that is due where a number of a list stands a second time: the one that is missing there.
+fn due_key(section: Section<'_>, again: Entry<'_>) -> Option<String> {
+    let name = again.key().name;
+    let (spelling, number) = (name.spelling(), again.key().number);
+    if number == 0 || !matches!(name, KeyName::Item | KeyName::Line) {
+        return None;
+    }
+    let entries: Vec<Entry<'_>> = section.all_numbered(name).collect();
+    let only = one_wrong(entries.iter().map(|entry| entry.key().number));
+    let due = match only {
+        Some((place, due)) if entries.get(place).map(|entry| entry.id()) == Some(again.id()) => due,
+        Some(_) => return None,
+        // The keys of compact lists are sub-indexes, of which any may be left out.
+        None if matches!(
+            section.kind(),
+            SectionKind::CompactNames(_) | SectionKind::CompactValues(_) | SectionKind::CompactDenotations(_)
+        ) =>
+        {
+            return None;
+        }
+        None => number.checked_add(1).filter(|next| section.numbered(name, *next).is_none())?,
+    };
+    Some(format!("{spelling}{due}"))
 }
 
 #[cfg(test)]
@@ -126,6 +165,23 @@ mod tests {
             "[1018]\nSubNumber=2\nsubnumber=3\n[DummyUsage]\nDummy0002=1\nDummy0001=1\n"
         );
         assert_eq!(findings(&DUPLICATE_KEY, "[MandatoryObjects]\n1=0x1000\n01=0x1001\n"), [""; 0]);
+    }
+
+    #[test]
+    fn an_item_whose_number_stands_twice_is_not_lost() {
+        for (section, key) in
+            [("OptionalObjects", ""), ("M1FixedObjects", ""), ("2000ObjectLinks", ""), ("Comments", "Line")]
+        {
+            let text = format!("[{section}]\n{key}1=0x3077\n{key}2=0x3078\n{key}2=0x3079\n{key}4=0x3080\n");
+            let mended = text.replace("2=0x3079", "3=0x3079");
+            assert_eq!(fixed(&DUPLICATE_KEY, &text), mended);
+            let last = format!("[{section}]\n{key}1=0x3077\n{key}2=0x3078\n{key}2=0x3079\n");
+            assert_eq!(fixed(&DUPLICATE_KEY, &last), last.replace("2=0x3079", "3=0x3079"));
+            let full = format!("[{section}]\n{key}1=0x3077\n{key}2=0x3078\n{key}3=0x3080\n{key}2=0x3079\n");
+            assert_eq!(fixed(&DUPLICATE_KEY, &full), full.replace("2=0x3079", "4=0x3079"));
+        }
+        let compact = "[2000Value]\n2=1\n2=5\n4=1\n";
+        assert_eq!(fixed(&DUPLICATE_KEY, compact), compact);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 use super::repeats;
 use crate::rule::rule;
 use crate::{Context, Edit, Report};
-use edskit_model::{Object, Section, SectionKind};
+use edskit_model::{Section, SectionKind};
 use std::collections::HashSet;
 
 rule! {
@@ -9,9 +9,7 @@ rule! {
     ///
     /// ## What it does
     /// Reports section names of objects and sub-objects whose numbers are written with leading zeros, `0x`, the `h` of the
-    /// manuals, blanks, or another sign that does not belong there, and sub-objects that count in decimal: `[6401sub10]`
-    /// for the tenth. Names are hexadecimal; they are taken as decimal only where nothing else fits, because there is
-    /// nothing from Ah to Fh and sub-index 00h has the decimal number. An index below 1000h that is filled up to four digits
+    /// manuals, blanks, or another sign that does not belong there. An index below 1000h that is filled up to four digits
     /// is left alone, because python-canopen needs four of them.
     ///
     /// ## Why is this bad
@@ -44,9 +42,6 @@ rule! {
 }
 
 fn check(context: &Context<'_>, report: &mut Report) {
-    for object in context.sheet.objects().filter(|object| object.has_decimal_sub_indices()) {
-        decimal(object, report);
-    }
     let mut odd = context.sheet.sections().filter(|section| is_odd(context, *section)).peekable();
     if odd.peek().is_none() {
         return;
@@ -72,29 +67,6 @@ fn check(context: &Context<'_>, report: &mut Report) {
             .add(section.name_span(), message)
             .help(format!("write `[{name}]`"))
             .safe_fix("Write the short name", vec![Edit::replace(section.name_span(), name)]);
-    }
-}
-
-/// Names of one object, which have to be changed together: each of them alone would be hexadecimal again.
-fn decimal(object: Object<'_>, report: &mut Report) {
-    let subs = object.sub_objects().map(|sub| sub.section());
-    let named: Vec<_> = subs
-        .filter(|section| section.has_decimal_sub_index())
-        .filter_map(|section| Some((section, section.kind().canonical_name()?)))
-        .collect();
-    let [(first, right), others @ ..] = &named[..] else { return };
-    let more = match others.len() {
-        0 => String::new(),
-        1 => ", and so does one more".to_owned(),
-        count => format!(", and so do {count} more"),
-    };
-    let message =
-        format!("the name `{}` counts in decimal, but sub-indices are hexadecimal{more}", first.name());
-    let edits = named.iter().map(|(section, name)| Edit::replace(section.name_span(), name.as_str()));
-    let finding = report.add(first.name_span(), message);
-    finding.help(format!("write `[{right}]`")).unsafe_fix("Count in hexadecimal", edits.collect());
-    for (section, name) in others {
-        finding.label(section.name_span(), format!("`[{name}]`"));
     }
 }
 
@@ -163,22 +135,6 @@ mod tests {
             ]
         );
         assert_eq!(fixed(&LEADING_ZERO_NAME, text), "[1000]\n[1018sub1]\n[1018sub2]\n[1001]\n[1003Value]\n");
-    }
-
-    #[test]
-    fn decimal_names_are_changed_together() {
-        let names: Vec<_> = (1..=12).map(|number| format!("[6401sub{number}]\nParameterName=a\n")).collect();
-        let text = format!("[6401]\n[6401sub0]\nDataType=5\nDefaultValue=12\n{}", names.concat());
-        assert_eq!(
-            findings(&LEADING_ZERO_NAME, &text),
-            [
-                "23:2 warning: the name `6401sub10` counts in decimal, but sub-indices are hexadecimal, and so do 2 more"
-            ]
-        );
-        let right = text.replace("sub10]", "subA]").replace("sub11]", "subB]").replace("sub12]", "subC]");
-        assert_eq!(fixed(&LEADING_ZERO_NAME, &text), right);
-        let hexadecimal = text.replace("DefaultValue=12", "DefaultValue=18");
-        assert_eq!(findings(&LEADING_ZERO_NAME, &hexadecimal), [""; 0]);
     }
 
     #[test]

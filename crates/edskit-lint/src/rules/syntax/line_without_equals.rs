@@ -1,19 +1,22 @@
 use super::{control_character, lost_header};
+use crate::conflicts::Conflicts;
 use crate::rule::rule;
 use crate::{Context, Edit, Finding, Report};
-use edskit_model::{Key, KeyGroup, KeyName, Line, LineKind, Section, Span, is_merge_marker};
+use edskit_model::{Document, Key, KeyGroup, KeyName, Line, LineKind, Section, Span};
 use std::collections::HashSet;
 
 rule! {
     /// A line is neither section, entry nor comment
     ///
     /// ## What it does
-    /// Reports text without `=`, a `=` without a key, and what is easily explained: conflict markers of a version
-    /// control system, and a section header that stands behind other text because a line break was lost.
+    /// Reports text without `=`, a `=` without a key, and what is easily explained: a conflict of a version control
+    /// system, and a section header that stands behind other text because a line break was lost. A conflict is one
+    /// finding: what stands between its markers is not judged, and of the rest only what is wrong whichever text is
+    /// kept.
     ///
     /// ## Why is this bad
-    /// Some readers refuse such a file, others skip the line with whatever it was meant to say. Behind a conflict
-    /// marker both versions of the conflict stand in the file. The entries of a lost header belong to the section
+    /// Some readers refuse such a file, others skip the line with whatever it was meant to say. In a conflict both
+    /// texts stand in the file, and readers take them for one. The entries of a lost header belong to the section
     /// before.
     ///
     /// ## Example
@@ -109,11 +112,7 @@ fn other(
     if control_character::is_nothing_else(raw) {
         return;
     }
-    if is_merge_marker(line.span().slice(context.source())) {
-        report
-            .add(content, format!("`{text}` is a conflict marker of a version control system"))
-            .help("decide which side of the conflict is right, and delete the markers and the other side");
-    } else if let Some(header) = lost_header::on_line(context, number) {
+    if let Some(header) = lost_header::on_line(context, number) {
         lost(context, header, report);
     } else if raw.first() == Some(&b'=') {
         report.add(content, format!("the key is missing in `{text}`")).help("write the key before `=`");
@@ -131,6 +130,33 @@ fn other(
             }
         };
         report.add(content, format!("`{text}` is neither section, entry nor comment")).help(help);
+    }
+}
+
+/// Reports each conflict once, whatever stands in it, and each marker that belongs to none.
+pub(crate) fn report_conflicts(document: &Document, conflicts: &Conflicts, report: &mut Report) {
+    let place = |number: usize| document.lines()[number].trimmed(document.to_bytes());
+    for conflict in conflicts.whole() {
+        let mut markers = conflict.markers().map(place);
+        let Some(first) = markers.next() else { continue };
+        let finding = report
+            .add(first, "a version control system left a conflict here: two texts stand in the place of one");
+        finding.here("one text begins here");
+        let mut rest: Vec<Span> = markers.collect();
+        let end = rest.pop();
+        if let [.., separator] = rest[..] {
+            finding.label(separator, "the other one");
+        }
+        if let Some(end) = end {
+            finding.label(end, "the conflict ends");
+        }
+        finding.help("keep the text that is right, and delete the other one with the markers; until then no fix changes anything here");
+    }
+    for &number in conflicts.stray() {
+        let span = place(number);
+        report
+            .add(span, format!("`{}` is a conflict marker of a version control system", document.text(span)))
+            .help("decide which text is right, and delete the marker with the other one; until then no fix changes this file");
     }
 }
 
@@ -167,14 +193,28 @@ mod tests {
     }
 
     #[test]
-    fn each_conflict_marker_is_named() {
-        let text = "<<<<<<< HEAD\n[1000]\n=======\n[1001]\n>>>>>>> a=b\n";
+    fn a_conflict_is_one_finding() {
+        for base in ["", "||||||| base\n[1002]\nhello\n"] {
+            let text = format!(
+                "[FileInfo]\n<<<<<<< HEAD\n[1000]\nhello\n{base}=======\n[1001]\n=5\n>>>>>>> a=b\nthere\n"
+            );
+            let found = findings(&LINE_WITHOUT_EQUALS, &text);
+            assert_eq!(found.len(), 2, "{found:?}");
+            assert_eq!(
+                found[0],
+                "2:1 error: a version control system left a conflict here: two texts stand in the place of one"
+            );
+            assert!(found[1].ends_with("error: `there` is neither section, entry nor comment"));
+        }
+    }
+
+    #[test]
+    fn a_stray_marker_is_named() {
         assert_eq!(
-            findings(&LINE_WITHOUT_EQUALS, text),
+            findings(&LINE_WITHOUT_EQUALS, "[1000]\nx=1\n=======\ny=1\n>>>>>>> other\n"),
             [
-                "1:1 error: `<<<<<<< HEAD` is a conflict marker of a version control system",
                 "3:1 error: `=======` is a conflict marker of a version control system",
-                "5:1 error: `>>>>>>> a=b` is a conflict marker of a version control system",
+                "5:1 error: `>>>>>>> other` is a conflict marker of a version control system",
             ]
         );
     }

@@ -1,6 +1,6 @@
 //! Section headers at the end of another line, because the line break between them was lost: `50[FileInfo]`.
 
-use super::typed;
+use super::{typed, unknown_section};
 use crate::Context;
 use edskit_model::{Entry, Key, KeyGroup, KeyName, LineKind, SectionKind, Shape, Span};
 
@@ -35,11 +35,13 @@ pub(crate) fn hidden(context: &Context<'_>) -> Vec<SectionKind> {
     let headers = (0..context.document().lines().len()).filter_map(|number| on_line(context, number));
     let name = |header: Span| header.sub(1, header.len() - 2).slice(context.source());
     let mut hidden: Vec<SectionKind> = headers.map(|header| SectionKind::of(name(header))).collect();
+    hidden.extend(unknown_section::meant(context));
     hidden.sort_unstable();
     hidden
 }
 
-/// Whether the header of a section stands behind other text, which SYN008 reports: the section is not missing.
+/// Whether the header of a section stands behind other text, which SYN008 reports, or is misspelt, which SYN023 reports:
+/// the section is not missing.
 pub(crate) fn hides(context: &Context<'_>, kind: SectionKind) -> bool {
     context.hidden_sections().binary_search(&kind).is_ok()
 }

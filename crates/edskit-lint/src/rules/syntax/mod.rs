@@ -32,6 +32,8 @@ mod typed;
 mod unknown_key;
 mod unknown_section;
 pub(crate) mod unused_suppression;
+mod unusual_case;
+mod wrong_count;
 
 use crate::Rule;
 
@@ -65,4 +67,6 @@ pub(super) const RULES: &[&Rule] = &[
     &control_character::CONTROL_CHARACTER,
     &entry_not_in_column_1::ENTRY_NOT_IN_COLUMN_1,
     &unused_suppression::UNUSED_SUPPRESSION,
+    &wrong_count::WRONG_COUNT,
+    &unusual_case::UNUSUAL_CASE,
 ];

@@ -9,7 +9,8 @@ rule! {
     ///
     /// ## What it does
     /// Recognises files that only end like an EDS, DCF or nodelist.cpj: archives, XML device descriptions, UTF-16
-    /// text, data sheets of other networks, binaries, empty files, texts without a single section that CiA 306 knows.
+    /// text, data sheets of other networks, files of edskit itself, binaries, empty files, texts without a single section
+    /// that CiA 306 knows.
     /// Such a file gets this one finding and no other.
     ///
     /// ## Why is this bad
@@ -74,6 +75,10 @@ pub(crate) fn check(context: &Context<'_>, report: &mut Report) {
             "the file is an EDS of EtherNet/IP, DeviceNet or another ODVA network, not of CANopen",
             "the two formats share only the name; use a tool for ODVA electronic data sheets",
         ),
+        Nature::Own(own) => {
+            report.add(context.start(), format!("the file is {}", own.name())).help(own.command());
+            return;
+        }
         Nature::Json => {
             ("the file is JSON", "an EDS is an INI text; a download may have given an error message instead")
         }
@@ -102,6 +107,7 @@ mod tests {
             first(b"\xFF\xFE[\0F\0"),
             "1:1 error: the file is UTF-16 text, which no CANopen tool reads"
         );
+        assert_eq!(first(b"[[step]]\nat = 1\n"), "1:1 error: the file is a scenario of edskit");
         assert_eq!(
             first(b"int main() { return a = 1; }\n"),
             "1:1 error: the file has no section that CiA 306 knows"

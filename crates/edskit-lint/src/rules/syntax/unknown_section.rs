@@ -9,7 +9,8 @@ rule! {
     ///
     /// ## What it does
     /// Lists the sections that CiA 306 does not know. Sections whose names differ only in the number at their end are
-    /// listed once. A name that looks like a known one is a warning. A sub-index above FFh is the matter of
+    /// listed once. A name that looks like a known one is a warning, also with letters that look like digits (`[1AOO]`),
+    /// and an error where the file is wrong without that section. A sub-index above FFh is the matter of
     /// sub-index-too-large.
     ///
     /// ## Why is this bad
@@ -82,13 +83,34 @@ fn check(context: &Context<'_>, report: &mut Report) {
     }
 }
 
+/// The sections that misspelt headers mean.
+pub(super) fn meant(context: &Context<'_>) -> Vec<SectionKind> {
+    let unknown = context.sheet.sections().filter(|section| section.kind() == SectionKind::Unknown);
+    let names = unknown.take(MOST_COMPARED).filter_map(|section| suggestion(context, &section.name()));
+    let kinds = names.map(|name| SectionKind::of(name.as_bytes()));
+    kinds.filter(|kind| *kind != SectionKind::Unknown).collect()
+}
+
 fn misspelt(context: &Context<'_>, section: Section<'_>, known: &str, report: &mut Report) {
     let message = format!("`[{}]` is not a section of CiA 306; it looks like `[{known}]`", section.name());
     let finding = report.add(section.name_span(), message);
-    finding.severity(Severity::Warning).help(format!("write `[{known}]` if that is meant"));
-    if context.sheet.section(SectionKind::of(known.as_bytes())).is_none() {
+    let kind = SectionKind::of(known.as_bytes());
+    let severity = if is_missed(context, kind) { Severity::Error } else { Severity::Warning };
+    finding.severity(severity).help(format!("write `[{known}]` if that is meant"));
+    if context.sheet.section(kind).is_none() {
         finding.unsafe_fix(format!("Write `[{known}]`"), vec![Edit::replace(section.name_span(), known)]);
     }
+}
+
+/// Whether a file is wrong without a section that it does not have: what a list names, or every file needs.
+fn is_missed(context: &Context<'_>, kind: SectionKind) -> bool {
+    let is_needed = match kind {
+        SectionKind::DeviceInfo | SectionKind::MandatoryObjects => true,
+        SectionKind::Object(index) => context.listing().is_listed(index),
+        SectionKind::SubObject(index, _) => context.listing().is_described(index),
+        _ => false,
+    };
+    is_needed && context.sheet.section(kind).is_none()
 }
 
 fn unknown(section: Section<'_>, count: usize, report: &mut Report) {
@@ -116,6 +138,9 @@ fn suggestion(context: &Context<'_>, name: &str) -> Option<String> {
     if dense.len() < name.len() && !matches!(kind, SectionKind::Object(_)) && kind != SectionKind::Unknown {
         return kind.canonical_name();
     }
+    if let Some(known) = with_digits(context, name) {
+        return Some(known);
+    }
     if let Some((index, rest)) = split_object(name) {
         if let Some(suffix) = nearest(rest, ["ObjectLinks", "Name", "Value", "Denotation"]) {
             return Some(format!("{index}{suffix}"));
@@ -139,6 +164,29 @@ fn suggestion(context: &Context<'_>, name: &str) -> Option<String> {
     let begins = |known: &&str| known.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name));
     let known = SectionKind::fixed_names().find(begins).filter(|_| name.len() >= 4)?;
     context.sheet.section(SectionKind::of(known.as_bytes())).is_none().then(|| known.to_owned())
+}
+
+/// The object or sub-object that a name means in which letters stand for digits that look like them: `1AOO`.
+fn with_digits(context: &Context<'_>, name: &str) -> Option<String> {
+    let (index, rest) = name.split_at_checked(4)?;
+    let (word, sub_index) = match rest.split_at_checked("sub".len()) {
+        Some((word, sub_index)) if word.eq_ignore_ascii_case("sub") => (word, sub_index),
+        _ => (rest, ""),
+    };
+    let digits = |text: &str| -> String {
+        let digit = |letter| match letter {
+            'O' | 'o' => '0',
+            'l' | 'I' | 'i' | '|' => '1',
+            _ => letter,
+        };
+        text.chars().map(digit).collect()
+    };
+    let meant = format!("{}{word}{}", digits(index), digits(sub_index));
+    let kind = SectionKind::of(meant.as_bytes());
+    // A word without any digit may well be a name of its own.
+    let is_listed = || kind.index().is_some_and(|index| context.listing().is_listed(index));
+    let is_number = index.bytes().any(|byte| byte.is_ascii_digit()) || is_listed();
+    (meant != name && kind.index().is_some() && is_number).then(|| kind.canonical_name()).flatten()
 }
 
 /// Four hexadecimal digits at the start of a name, and what follows.
@@ -192,7 +240,30 @@ mod tests {
                 format!("[1000]\n[{right}]\n")
             );
         }
-        for other in ["Def", "DeviceX11", "1018x", "ABCDE", "A B", "M", "M1", "Makro", "1018sub"] {
+        for (wrong, right) in [
+            ("1AOO", "1A00"),
+            ("l018", "1018"),
+            ("I8OO", "1800"),
+            ("10l8sub1", "1018sub1"),
+            ("1018subl", "1018sub1"),
+            ("6OOOName", "6000Name"),
+        ] {
+            assert_eq!(
+                fixed(&UNKNOWN_SECTION, &format!("[1000]\n[{wrong}]\n")),
+                format!("[1000]\n[{right}]\n")
+            );
+            let found =
+                |before: &str| findings(&UNKNOWN_SECTION, &format!("{before}[1000]\n[{wrong}]\n")).remove(0);
+            assert!(found("").contains(" warning"), "{wrong}");
+            let listed = found(&format!("[OptionalObjects]\n1=0x{}\n[1018]\n", &right[..4]));
+            let is_list = right.ends_with("Name");
+            assert_eq!(listed.contains(" error"), right != "1018" && !is_list, "{listed}");
+        }
+        let listed = "[OptionalObjects]\n1=0xA000\n[AOOO]\n";
+        assert_eq!(fixed(&UNKNOWN_SECTION, listed), listed.replace("AOOO", "A000"));
+        for other in
+            ["Foil", "AOOO", "Def", "DeviceX11", "1018x", "ABCDE", "A B", "M", "M1", "Makro", "1018sub"]
+        {
             let text = format!("[1000]\n[{other}]\n");
             assert_eq!(fixed(&UNKNOWN_SECTION, &text), text);
         }

@@ -1,7 +1,8 @@
-use super::reading::{Readings, Scalar, each_value, name};
+use super::low_above_high::have_no_reading;
+use super::reading::{Readings, Scalar, each_value, name, node_ids};
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
-use edskit_model::{Field, KeyName, Value};
+use edskit_model::{Entry, Field, KeyName, Value};
 use edskit_types::{DataType, NodeId};
 
 rule! {
@@ -55,6 +56,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         if let Some(value @ (Value::Integer(_) | Value::RealBits(_))) = field.known()
             && let Some(readings) = Readings::of(value, data_type, NodeId::MIN)
             && readings.is_ambiguous()
+            && !(is_limit(field.entry) && limits_are_wrong(context, variable, data_type))
         {
             fields.push((field, readings));
         }
@@ -63,6 +65,18 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
         fields.sort_by_key(|(field, _)| field.entry.id());
         report_values(&fields, data_type, report);
     }
+}
+
+fn is_limit(entry: Entry<'_>) -> bool {
+    matches!(entry.key().name, KeyName::LowLimit | KeyName::HighLimit)
+}
+
+/// Limits that are wrong under both readings are the matter of VAL003.
+#[cold]
+fn limits_are_wrong(context: &Context<'_>, variable: &Variable<'_>, data_type: DataType) -> bool {
+    let low = variable.low_limit.and_then(Field::known);
+    let limits = low.zip(variable.high_limit.and_then(Field::known));
+    limits.is_some_and(|(low, high)| have_no_reading(low, high, data_type, node_ids(context)))
 }
 
 #[cold]
@@ -111,8 +125,11 @@ mod tests {
 
     #[test]
     fn an_upper_limit_alone_is_not_made_negative() {
-        let text = "[2000]\nDataType=3\nLowLimit=0\nHighLimit=0xFFFF\n";
+        let text = "[2000]\nDataType=3\nLowLimit=-5\nHighLimit=0xFFFF\n";
         assert_eq!(findings(&HEX_AMBIGUOUS, text).len(), 1);
+        assert_eq!(fixed(&HEX_AMBIGUOUS, text), text);
+        let text = "[2000]\nDataType=3\nLowLimit=0\nHighLimit=0xFFFF\n";
+        assert_eq!(findings(&HEX_AMBIGUOUS, text), [""; 0], "VAL003");
         assert_eq!(fixed(&HEX_AMBIGUOUS, text), text);
     }
 

@@ -1,6 +1,6 @@
-use super::reading::{Readings, fits, node_ids, shown};
+use super::reading::{Readings, Scalar, fits, node_ids, shown};
 use crate::rule::rule;
-use crate::{Context, Report, Variable};
+use crate::{Context, Report, Severity, Variable};
 use edskit_model::{Field, Value};
 use edskit_types::{DataType, NodeId};
 
@@ -56,7 +56,32 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let node_ids = node_ids(context);
     if contradict(low_value, high_value, data_type, node_ids) {
         report_limits(low, high, data_type, node_ids, report);
+    } else if have_no_reading(low_value, high_value, data_type, node_ids) {
+        report_unreadable(low, high, data_type, report);
     }
+}
+
+/// Whether limits of a signed type are wrong however they are read, although each of them can be read: as the numbers
+/// that are written one leaves the type, and as bits the lower one is above the upper one.
+pub(super) fn have_no_reading(
+    low: Value<'_>,
+    high: Value<'_>,
+    data_type: DataType,
+    node_ids: [NodeId; 2],
+) -> bool {
+    let Some((least, most)) = data_type.range().filter(|_| data_type.is_signed()) else { return false };
+    let is_in_type = |value: Scalar| Scalar::Integer(least) <= value && value <= Scalar::Integer(most);
+    node_ids.into_iter().all(|node_id| {
+        let readings = |value| Readings::of(value, data_type, node_id);
+        let (Some(lows), Some(highs)) = (readings(low), readings(high)) else { return false };
+        fits(low, data_type, node_id)
+            && fits(high, data_type, node_id)
+            && lows
+                .all()
+                .into_iter()
+                .zip(highs.all())
+                .all(|(low, high)| low > high || !is_in_type(low) || !is_in_type(high))
+    })
 }
 
 /// Whether the lower limit is above the upper one whatever they mean, and both fit the data type (VAL002 looks at
@@ -74,6 +99,36 @@ pub(super) fn contradict(
             && fits(low, data_type, node_id)
             && fits(high, data_type, node_id)
     })
+}
+
+#[cold]
+fn report_unreadable(
+    low: Field<'_, Value<'_>>,
+    high: Field<'_, Value<'_>>,
+    data_type: DataType,
+    report: &mut Report,
+) {
+    let message = format!(
+        "`LowLimit` `{}` and `HighLimit` `{}` are no range of {data_type}, however they are read",
+        low.text(),
+        high.text()
+    );
+    let unsigned = DataType::ALL
+        .iter()
+        .find(|other| other.is_integer() && !other.is_signed() && other.bits() == data_type.bits());
+    let help = match unsigned {
+        Some(unsigned) => format!(
+            "write numbers that {data_type} holds, or its type `DataType=0x{:04X}` ({unsigned}) if that is meant",
+            unsigned.index()
+        ),
+        None => format!("write numbers that {data_type} holds"),
+    };
+    report
+        .add(high.span(), message)
+        .severity(Severity::Warning)
+        .here("beyond the type as a number, negative as bits")
+        .label(low.span(), "the lower limit")
+        .help(help);
 }
 
 #[cold]
@@ -125,13 +180,36 @@ mod tests {
             "3:10 error: `LowLimit` `0x7FFF` (32767) is above `HighLimit` `0x10` (16)"
         );
         assert_eq!(limits(3, "0x8000", "0x7FFF"), "");
-        assert_eq!(limits(3, "0", "0xFFFF"), "");
         assert_eq!(
             limits(3, "0xFFFF", "0xFFFE"),
             "3:10 error: `LowLimit` `0xFFFF` (-1) is above `HighLimit` `0xFFFE` (-2)"
         );
         assert_eq!(limits(3, "-5", "5"), "");
         assert_eq!(limits(0x10, "0xFFFFFF", "0"), "");
+    }
+
+    #[test]
+    fn limits_that_fit_no_reading_are_wrong() {
+        for (data_type, bits, name) in [
+            (2, 8, "INTEGER8"),
+            (3, 16, "INTEGER16"),
+            (0x10, 24, "INTEGER24"),
+            (4, 32, "INTEGER32"),
+            (0x15, 64, "INTEGER64"),
+        ] {
+            let all = format!("0x{}", "F".repeat(bits / 4));
+            assert_eq!(
+                limits(data_type, "0x00", &all),
+                format!(
+                    "4:11 warning: `LowLimit` `0x00` and `HighLimit` `{all}` are no range of {name}, however they are read"
+                )
+            );
+            let (half, less) =
+                (format!("0x8{}", "0".repeat(bits / 4 - 1)), format!("0x7{}", "F".repeat(bits / 4 - 1)));
+            assert_eq!(limits(data_type, &half, &less), "");
+            assert_eq!(limits(data_type, &half, &all), "", "both are negative");
+        }
+        assert_eq!(limits(5, "0x00", "0xFF"), "");
     }
 
     #[test]

@@ -20,6 +20,13 @@ impl fmt::Display for Scalar {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Integer(value) => value.fmt(f),
+            // Most digits of a very large or very small number would be zeros that say nothing.
+            Self::Real(value) if *value != 0.0 && !(1e-5..1e16).contains(&value.abs()) => {
+                match *value as f32 {
+                    short if f64::from(short) == *value => fmt::LowerExp::fmt(&short, f),
+                    _ => fmt::LowerExp::fmt(value, f),
+                }
+            }
             // The shortest text that a REAL32 reads back, where the value is one.
             Self::Real(value) if f64::from(*value as f32) == *value => (*value as f32).fmt(f),
             Self::Real(value) => value.fmt(f),
@@ -227,6 +234,33 @@ mod tests {
         assert_eq!(integers(DataType::Integer16, "40000", 1), [40000, 40000]);
         assert_eq!(integers(DataType::Unsigned16, "0x8000", 1), [0x8000, 0x8000]);
         assert_eq!(integers(DataType::Integer64, "0xFFFFFFFFFFFFFFFF", 1), [-1, u64::MAX.into()]);
+    }
+
+    #[test]
+    fn the_shortest_text_that_reads_back_is_shown() {
+        for (bits, shown) in [
+            (0x5555_5555, "7.073319e-315"),
+            (f64::MAX.to_bits(), "1.7976931348623157e308"),
+            (1e16f64.to_bits(), "1e16"),
+            (123_456_789.0f64.to_bits(), "123456789"),
+            (0.1f64.to_bits(), "0.1"),
+            (1e-5f64.to_bits(), "0.00001"),
+            (2e-6f64.to_bits(), "2e-6"),
+            (0, "0"),
+            ((-1e300f64).to_bits(), "-1e300"),
+        ] {
+            let value = f64::from_bits(bits);
+            let text = Scalar::Real(value).to_string();
+            assert_eq!(text.parse::<f64>().unwrap().to_bits(), bits, "{text}");
+            assert!(text.len() <= 24 && (bits == 0x5555_5555 || text == shown), "{text}");
+        }
+        for bits in [1u32, 0x0080_0000, 0x7F7F_FFFF, 0x6000_0000, 0x3DCC_CCCD] {
+            let value = f32::from_bits(bits);
+            let text = Scalar::Real(value.into()).to_string();
+            assert_eq!(text.parse::<f32>().unwrap().to_bits(), bits, "{text}");
+            assert!(text.len() <= 14, "{text}");
+        }
+        assert_eq!(Scalar::Real(f64::INFINITY).to_string(), "inf");
     }
 
     #[test]

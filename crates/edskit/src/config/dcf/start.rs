@@ -19,15 +19,15 @@ pub(super) struct Started {
 pub(super) enum NotStarted {
     /// It refuses the parameters.
     Refused(Refusal),
-    /// Its two units do not hear each other.
-    Apart,
+    /// Its two units do not hear each other, for this reason.
+    Apart(String),
 }
 
 impl fmt::Display for NotStarted {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Refused(reason) => write!(f, "the gateway refuses these parameters: {reason}"),
-            Self::Apart => f.write_str("with these parameters gateway and governor do not hear each other"),
+            Self::Apart(reason) => write!(f, "gateway and governor do not hear each other: {reason}"),
         }
     }
 }
@@ -41,6 +41,9 @@ impl Started {
     /// # Errors
     /// Why the first attempt of the initialisation fails, the others having the same parameters, or that there is none.
     pub(super) fn of(device: LiveGateway) -> Result<Self, NotStarted> {
+        if let Some(reason) = words::apart(device.parameters()) {
+            return Err(NotStarted::Apart(reason));
+        }
         let mut started = Self { device, now: Instant(0) };
         while started.now < LONGEST_START {
             started.device.poll(started.now);
@@ -56,7 +59,7 @@ impl Started {
             }
             started.now = started.device.next_deadline(started.now);
         }
-        Err(NotStarted::Apart)
+        Err(NotStarted::Apart(format!("nothing has happened for {} s", LONGEST_START.0 / 1_000_000)))
     }
 
     pub(super) fn node_id(&self) -> NodeId {
@@ -103,8 +106,8 @@ impl Started {
             }
             match transfer.result() {
                 None => {}
-                Some(Ok(bytes)) => {
-                    let number = bytes.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
+                Some(Ok(value)) => {
+                    let number = value.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
                     return Ok(Some(number));
                 }
                 Some(Err(SdoError::Aborted(

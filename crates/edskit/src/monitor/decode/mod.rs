@@ -7,10 +7,10 @@ mod simple;
 pub(super) use lss::Lss;
 pub(super) use sdo::Sdo;
 
-use super::network::{MappedEntry, Network, Shown, show};
+use super::network::{Mapping, Network, Shown, show};
 use edskit_runtime::{Frame, Value as _};
-use edskit_types::{NodeId, Party, SdoMessage};
-use sdo::Channel;
+use edskit_types::{NmtCommand, NodeId, Party, SdoMessage};
+use sdo::{Channel, Held};
 use serde::Serialize;
 use std::collections::{HashMap, HashSet};
 
@@ -83,12 +83,13 @@ pub(super) struct PdoValue {
     pub(super) shown: Shown,
 }
 
-/// Decodes frames, one after the other. It remembers what the frames before said: which SDO transfers run, and which nodes
-/// are guarded.
+/// Decodes frames, one after the other. It remembers what the frames before said: which SDO transfers run, what they have
+/// shown of the nodes' PDOs and identifiers, and which nodes are guarded.
 #[derive(Default)]
 pub(super) struct Decoder {
     network: Network,
-    channels: HashMap<NodeId, Channel>,
+    /// By node and number of its server.
+    channels: HashMap<(NodeId, u8), Channel>,
     guarded: HashSet<NodeId>,
 }
 
@@ -115,6 +116,9 @@ impl Decoder {
                 Party::LssResponse => (Lss::of_response(data), "an LSS message of eight bytes"),
                 _ => (Some(Message::Unknown), ""),
             };
+            if let (Party::Nmt, Some(Message::Nmt { node, .. })) = (user.party, &message) {
+                self.commanded(data[0], *node);
+            }
             return message.unwrap_or_else(|| malformed(expected));
         };
         let number = node.get();
@@ -126,21 +130,27 @@ impl Decoder {
                 self.guarded.insert(node);
                 Message::GuardRequest { node: number }
             }
-            Party::Pdo { .. } => pdo(number, user.party, user.mapping.as_deref(), data),
+            Party::Pdo { .. } => pdo(number, user.party, user.mapping.as_ref(), data),
             Party::Heartbeat => {
-                let is_guarded = self.guarded.contains(&node);
-                simple::error_control(number, is_guarded, data)
-                    .unwrap_or_else(|| malformed("a heartbeat of one byte"))
+                let is_guarded = self.guarded.contains(&node) && !self.network.sends_heartbeats(node);
+                let message = simple::error_control(number, is_guarded, data);
+                if let Some(Message::BootUp { .. }) = message {
+                    self.restarted(Some(node));
+                }
+                message.unwrap_or_else(|| malformed("a heartbeat of one byte"))
             }
             Party::Emcy => simple::emcy(number, data).unwrap_or_else(|| malformed("an EMCY of eight bytes")),
-            Party::Sdo { message, .. } => {
+            Party::Sdo { number: server, message, .. } => {
                 let Ok(bytes) = <[u8; 8]>::try_from(data) else { return malformed("an SDO of eight bytes") };
-                let channel = self.channels.entry(node).or_default();
-                let sdo = match message {
+                let channel = self.channels.entry((node, server)).or_default();
+                let step = match message {
                     SdoMessage::Request => channel.request(bytes),
                     SdoMessage::Response => channel.response(bytes),
                 };
-                Message::Sdo(Sdo::new(number, message, sdo, |index, sub_index, value| {
+                if let Some(Held { place, value, is_written }) = &step.held {
+                    self.network.learn(node, *place, value.as_ref(), *is_written);
+                }
+                Message::Sdo(Sdo::new(number, message, step, |index, sub_index, value| {
                     let name = self.network.name(node, index, sub_index);
                     (name, value.map(|value| self.network.show(node, index, sub_index, value)))
                 }))
@@ -148,13 +158,34 @@ impl Decoder {
             _ => Message::Unknown,
         }
     }
+
+    /// The master has told a node something, or all of them.
+    fn commanded(&mut self, command: u8, node: Option<u8>) {
+        let is_reset = matches!(
+            NmtCommand::from_code(command),
+            Some(NmtCommand::ResetNode | NmtCommand::ResetCommunication)
+        );
+        match node.map(NodeId::new) {
+            None if is_reset => self.restarted(None),
+            Some(Ok(node)) if is_reset => self.restarted(Some(node)),
+            _ => {}
+        }
+    }
+
+    /// A node starts anew, or all do: nothing that was told to it before counts.
+    fn restarted(&mut self, node: Option<NodeId>) {
+        let is_meant = |known: NodeId| node.is_none_or(|node| node == known);
+        self.channels.retain(|(known, _), _| !is_meant(*known));
+        self.guarded.retain(|known| !is_meant(*known));
+        self.network.reset(node);
+    }
 }
 
 /// The values of a PDO by its mapping, bit by bit (CiA 301 v4.2, 7.2.2).
-fn pdo(node: u8, party: Party, mapping: Option<&[MappedEntry]>, data: &[u8]) -> Message {
+fn pdo(node: u8, party: Party, mapping: Option<&Mapping>, data: &[u8]) -> Message {
     let all = u64::from_bytes(data);
     let (mut first, mut values) = (0_u32, Vec::new());
-    for entry in mapping.unwrap_or_default() {
+    for entry in mapping.and_then(|mapping| mapping.entries.as_ref()).into_iter().flatten() {
         let (start, end) = (first, first + u32::from(entry.bits));
         first = end;
         if end > 8 * data.len() as u32 || entry.bits == 0 {
@@ -171,13 +202,17 @@ fn pdo(node: u8, party: Party, mapping: Option<&[MappedEntry]>, data: &[u8]) -> 
         });
     }
     let (mapped, length) = (first.div_ceil(8), data.len() as u32);
-    let note = match mapping {
-        None => None,
-        Some([]) if length > 0 => Some("nothing is mapped by the file".to_owned()),
-        Some(_) if length < mapped => Some(format!("too short, {mapped} bytes are mapped by the file")),
-        Some(_) if length > mapped => Some(format!("too long, {mapped} bytes are mapped by the file")),
-        Some(_) => None,
-    };
+    let note = mapping.and_then(|Mapping { entries, is_seen }| {
+        let source = if *is_seen { "what was seen of it" } else { "the file" };
+        match entries.as_deref() {
+            None if *is_seen => Some("its mapping has changed, and not all of that was seen".to_owned()),
+            None => None,
+            Some([]) if length > 0 => Some(format!("nothing is mapped by {source}")),
+            Some(_) if length < mapped => Some(format!("too short, {mapped} bytes are mapped by {source}")),
+            Some(_) if length > mapped => Some(format!("too long, {mapped} bytes are mapped by {source}")),
+            Some(_) => None,
+        }
+    });
     Message::Pdo { node, pdo: party.to_string(), values, note }
 }
 

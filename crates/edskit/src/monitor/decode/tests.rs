@@ -1,3 +1,6 @@
+mod following;
+mod lengths;
+
 use super::*;
 use crate::live::KnownDevice;
 use crate::monitor::render::Report;

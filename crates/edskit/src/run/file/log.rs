@@ -14,6 +14,8 @@ enum Line<'a> {
     Node { node_id: u8, product: Option<&'a str> },
     State { state: String },
     Emergency { code: u16, register: u8, info: [u8; 5] },
+    ValueRefused { rpdo: u16, index: u16, sub_index: u8, code: u32 },
+    BitRate { kbit_per_s: u16 },
 }
 
 /// Which node it is.
@@ -43,6 +45,15 @@ pub(super) fn device(log: &Log, streams: &mut Streams, event: &DeviceEvent) -> i
                 0 => format!("an error has gone, error register {register:02X}h"),
                 _ => format!("emergency {code:04X}h, error register {register:02X}h, {info:02X?}"),
             })
+        }
+        DeviceEvent::ValueRefused { rpdo, index, sub_index, code } => {
+            let line = Line::ValueRefused { rpdo, index: index.0, sub_index: sub_index.0, code: code.0 };
+            let what = || format!("RPDO{rpdo}: a value for {index} sub-index {sub_index} is refused, {code}");
+            log.line(streams, &line, what)
+        }
+        DeviceEvent::BitRate(bit_rate) => {
+            let line = Line::BitRate { kbit_per_s: bit_rate.kbit_per_s() };
+            log.line(streams, &line, || format!("LSS: {bit_rate} from now on, which nothing changes here"))
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::scenario::Action;
 use super::scenario::words::{UNITS, word_for};
 use edskit_devices::gateway::{
-    CanOpenError, Event, GatewayError, INITIALISATION_ATTEMPTS, Parameter, Period,
+    Amount, CanOpenError, EepromErrors, Event, GatewayError, INITIALISATION_ATTEMPTS, Owner, Parameter,
+    Period, measured_value,
 };
 use edskit_runtime::Microseconds;
 use serde::Serialize;
@@ -36,21 +37,61 @@ pub(super) enum What {
     InitialisationFailed { attempt: u8, most: u8, reason: String },
     /// A time is longer than the longest (GW-NOTE-08).
     TimeCapped { parameter: u16, name: String, set_ms: u16, effective_ms: f64 },
-    /// An error has come.
-    Error { number: u16, name: Option<&'static str>, meaning: &'static str },
+    /// The two units do not hear each other, because of their parameters.
+    UnitsApart { reason: String },
+    /// An error has come; 3099 has a value.
+    Error {
+        number: u16,
+        name: Option<&'static str>,
+        meaning: String,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        value: Option<u16>,
+    },
     /// An error has gone.
     ErrorGone { number: u16, name: Option<&'static str> },
     /// The error memory cannot be written.
     NotStored,
     /// So many events came too fast to be told.
     EventsLost { count: u32 },
+    /// The scenario has read a parameter or a measured value.
+    Value {
+        unit: &'static str,
+        number: u16,
+        name: Option<String>,
+        value: Number,
+        /// With its unit.
+        #[serde(skip)]
+        amount: String,
+    },
     /// An action of the scenario was carried out, or had no effect.
     Step { key: &'static str, value: String, without_effect: Option<String> },
+}
+
+/// A number in the unit of the manual.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum Number {
+    Whole(i32),
+    Decimal(f64),
+}
+
+impl From<Amount> for Number {
+    fn from(amount: Amount) -> Self {
+        match amount.quantity().per_unit() {
+            1 => Self::Whole(amount.value()),
+            parts => Self::Decimal(f64::from(amount.value()) / f64::from(parts)),
+        }
+    }
 }
 
 impl Line {
     pub(super) fn new(time: Microseconds, what: What) -> Self {
         Self { what, time }
+    }
+
+    /// Its time, where it tells of another state.
+    pub(super) fn begin_of_state(&self) -> Option<Microseconds> {
+        matches!(self.what, What::State { .. }).then_some(self.time)
     }
 
     /// `    0.231250  pre-operational`
@@ -82,6 +123,12 @@ impl What {
             },
             Event::Error(error, is_present) => Self::gateway_error(error, is_present),
             Event::CanOpenError(error, is_present) => Self::can_open_error(error, is_present),
+            Event::EepromErrors(errors) => Self::Error {
+                number: EepromErrors::NUMBER,
+                name: measured_value(EepromErrors::NUMBER),
+                meaning: errors.to_string(),
+                value: Some(errors.0),
+            },
             Event::NotStored => Self::NotStored,
             Event::Lost(count) => Self::EventsLost { count },
         }
@@ -101,7 +148,10 @@ impl What {
     }
 
     fn error(number: u16, name: Option<&'static str>, meaning: &'static str, is_present: bool) -> Self {
-        if is_present { Self::Error { number, name, meaning } } else { Self::ErrorGone { number, name } }
+        match is_present {
+            true => Self::Error { number, name, meaning: meaning.to_owned(), value: None },
+            false => Self::ErrorGone { number, name },
+        }
     }
 
     pub(super) fn capped(parameter: Parameter, period: Period) -> Self {
@@ -111,6 +161,12 @@ impl What {
             set_ms: period.setting_ms,
             effective_ms: f64::from(period.micros()) / 1000.0,
         }
+    }
+
+    /// What a unit shows under a number.
+    pub(super) fn value(unit: Owner, number: u16, name: Option<String>, amount: Amount) -> Self {
+        let (unit, value) = (word_for(&UNITS, unit), Number::from(amount));
+        Self::Value { unit, number, name, value, amount: amount.to_string() }
     }
 
     pub(super) fn step(action: Action, without_effect: Option<String>) -> Self {
@@ -137,8 +193,15 @@ impl What {
             Self::TimeCapped { parameter, name, set_ms, effective_ms } => {
                 format!("P{parameter} {name} = {set_ms} ms is too long and counts as {effective_ms} ms")
             }
-            Self::Error { number, name, meaning } => format!("error {}: {meaning}", titled(*number, *name)),
+            Self::UnitsApart { reason } => format!("gateway and governor do not hear each other: {reason}"),
+            Self::Error { number, name, meaning, value } => {
+                let value = value.map(|value| format!(" = {value:04X}h")).unwrap_or_default();
+                format!("error {}{value}: {meaning}", titled(*number, *name))
+            }
             Self::ErrorGone { number, name } => format!("error {} has gone", titled(*number, *name)),
+            Self::Value { unit, number, name, amount, .. } => {
+                format!("{unit} {} = {amount}", titled(*number, name.as_deref()))
+            }
             Self::NotStored => "the error memory cannot be written".to_owned(),
             Self::EventsLost { count: 1 } => "1 event came too fast to be told".to_owned(),
             Self::EventsLost { count } => format!("{count} events came too fast to be told"),

@@ -9,14 +9,18 @@ mod simulate;
 mod view;
 
 use crate::cli::RunArguments;
-use crate::config::{self, Parameters};
+use crate::config::{self, KnownSignals, Parameters};
 use crate::live::{Log, TraceFile};
 use crate::{Exit, Streams};
 use edskit_devices::gateway::{Engine, Gateway};
 use edskit_host::MemoryStorage;
+use edskit_types::Bitrate;
 use governor::DescribedEngine;
 pub(crate) use session::LiveGateway;
 use std::io;
+
+/// The bit rate of a bus in virtual time where the gateway has manual bit timing, which names none.
+const MANUAL_TIMING: Bitrate = Bitrate::Kbit125;
 
 pub(super) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result<Exit> {
     if arguments.node_id.is_some() {
@@ -31,7 +35,10 @@ pub(super) fn run(arguments: &RunArguments, streams: &mut Streams) -> io::Result
         None => Some(Parameters::default()),
     };
     let steps = match &arguments.scenario {
-        Some(file) => scenario::read(file, arguments.simulate, streams)?,
+        Some(file) => {
+            let signals = parameters.as_ref().map(|parameters| &parameters.signals);
+            scenario::read(file, arguments.simulate, signals.unwrap_or(&KnownSignals::default()), streams)?
+        }
         None => Some(Vec::new()),
     };
     let (Some(parameters), Some(steps)) = (parameters, steps) else { return Ok(Exit::Findings) };

@@ -3,7 +3,8 @@
 use super::governor::DescribedEngine;
 use super::log::{Line, What};
 use super::scenario::{Action, Step};
-use edskit_devices::gateway::{Event, Gateway, Owner, State};
+use crate::config;
+use edskit_devices::gateway::{EepromErrors, Event, Gateway, Owner, Parameter, State, measured_value};
 use edskit_host::{Bus, BusError, MemoryStorage, Participant, SendError, Station};
 use edskit_runtime::{Device, Frame, Instant, Microseconds};
 use edskit_types::CanId;
@@ -14,6 +15,9 @@ pub(crate) type LiveGateway = Gateway<DescribedEngine, MemoryStorage>;
 
 /// The errors below the gateway's own, which are those of the engine and its sensors: 3000 to 3069.
 pub(super) const ENGINE_ERRORS: u128 = (1 << 70) - 1;
+
+/// What can be read of a gateway that stays in its bootloader, as far as it is modelled: the reason, and list 9.3.2.
+const SHOWN_BY_BOOTLOADER: [u16; 6] = [EepromErrors::NUMBER, 3840, 3841, 3842, 3850, 3870];
 
 /// The gateway on its bus.
 pub(super) struct Session<B> {
@@ -85,8 +89,16 @@ impl<B: Bus> Session<B> {
 
     fn carry_out(&mut self, action: Action) {
         let now = self.station.bus.now();
-        let without_effect = self.act(now, action);
-        self.tell(What::step(action, without_effect));
+        match action {
+            Action::Read(unit, number) => match self.read(unit, number) {
+                Ok(value) => self.tell(value),
+                Err(reason) => self.tell(What::step(action, Some(reason))),
+            },
+            _ => {
+                let without_effect = self.act(now, action);
+                self.tell(What::step(action, without_effect));
+            }
+        }
         self.collect();
     }
 
@@ -104,6 +116,7 @@ impl<B: Bus> Session<B> {
             Action::Set(parameter, value) => {
                 return device.set_parameter(parameter, value).err().map(|error| error.to_string());
             }
+            Action::Tool(identifier) => device.connect_tool(identifier),
             Action::Store(unit) => device.store(unit),
             Action::Supply(millivolts) => device.set_supply(now, millivolts),
             Action::Eeprom(code) => device.set_eeprom_code(code),
@@ -115,6 +128,8 @@ impl<B: Bus> Session<B> {
                 let is_known = device.governor_mut().engine.set_error(number, is_present);
                 return (!is_known).then(|| "the engine has no such error".to_owned());
             }
+            // What is read is told instead.
+            Action::Read(..) => {}
             Action::Inject(fault) => device.inject(now, fault),
             Action::Remove(fault) => device.remove(now, fault),
             Action::ClearErrors => device.clear_errors(now),
@@ -128,6 +143,28 @@ impl<B: Bus> Session<B> {
             }
         }
         None
+    }
+
+    /// What a unit shows under a number, with the PC tool (GW-APP-51); the reason where it shows nothing.
+    fn read(&self, unit: Owner, number: u16) -> Result<What, String> {
+        let device = &self.station.device;
+        if !device.is_powered(unit) {
+            return Err("it is off".to_owned());
+        }
+        let is_in_bootloader = unit == Owner::Gateway && device.stays_in_bootloader();
+        match device.is_running(unit) {
+            true => {}
+            false if is_in_bootloader && SHOWN_BY_BOOTLOADER.contains(&number) => {}
+            false if is_in_bootloader => return Err("the gateway stays in its bootloader".to_owned()),
+            false => return Err("its program has not started".to_owned()),
+        }
+        let amount = device.shown(unit, number).ok_or("nothing is known of it")?;
+        let name = match (unit, Parameter::find(unit, number)) {
+            (_, Some(parameter)) => parameter.name().map(|name| name.to_string()),
+            (Owner::Gateway, None) => measured_value(number).map(str::to_owned),
+            (Owner::Governor, None) => device.governor().signals.name(number),
+        };
+        Ok(What::value(unit, number, name, amount))
     }
 
     /// Sends a frame of the NMT master.
@@ -152,8 +189,13 @@ impl<B: Bus> Session<B> {
         while let Some(event) = self.station.bus.event() {
             self.tell(What::Bus { message: event.to_string() });
         }
+        let mut has_started = false;
         while let Some(event) = self.station.device.take_event() {
+            has_started |= matches!(event, Event::Started(_));
             self.tell_event(event);
+        }
+        if has_started {
+            self.tell_hindrances();
         }
         // A governor that does not run has no errors; that it is off has been told.
         let is_running = self.station.device.is_running(Owner::Governor);
@@ -181,6 +223,16 @@ impl<B: Bus> Session<B> {
                 }
             }
             _ => self.tell(What::of(event)),
+        }
+    }
+
+    /// What keeps the units from hearing each other, once both have started with it (GW-CFG-48).
+    fn tell_hindrances(&mut self) {
+        let device = &self.station.device;
+        let both_run = device.is_running(Owner::Gateway) && device.is_running(Owner::Governor);
+        let reason = config::apart(device.effective_parameters()).filter(|_| both_run);
+        if let Some(reason) = reason {
+            self.tell(What::UnitsApart { reason });
         }
     }
 

@@ -1,5 +1,6 @@
 //! The gateway in virtual time: the same input gives the same lines and frames.
 
+use super::MANUAL_TIMING;
 use super::log::What;
 use super::scenario::Step;
 use super::session::{LiveGateway, Session};
@@ -7,10 +8,9 @@ use crate::live::{Log, TraceFile};
 use crate::{Exit, Streams};
 use edskit_host::{Bus, Trace, VirtualBus};
 use edskit_runtime::Microseconds;
-use edskit_types::Bitrate;
 use std::io;
 
-/// Runs the gateway for some time on a bus with the bit rate of its parameters, 125 kbit/s with manual bit timing.
+/// Runs the gateway for some time on a bus with the bit rate of its parameters, [`MANUAL_TIMING`] with manual bit timing.
 pub(super) fn run(
     device: LiveGateway,
     steps: Vec<Step>,
@@ -19,7 +19,7 @@ pub(super) fn run(
     log: &Log,
     streams: &mut Streams,
 ) -> io::Result<Exit> {
-    let bus = VirtualBus::new(device.bit_rate().unwrap_or(Bitrate::Kbit125));
+    let bus = VirtualBus::new(device.bit_rate().unwrap_or(MANUAL_TIMING));
     let mut recorder = record.map(|record| Trace::new(bus.attach(), record));
     let mut session = Session::new(device, bus.attach(), Some(bus.attach()), steps);
     let end = session.instant(duration);

@@ -20,7 +20,7 @@ fn everything() -> Vec<(Owner, u16, i32)> {
     both(&of_gateway, &of_governor)
 }
 
-// GW-OD-01, GW-OD-02, GW-OD-03, GW-OD-04, GW-OD-05, GW-OD-06, GW-EDS-01, GW-GAP-04, GW-APP-41, GW-GAP-13
+// GW-OD-01, GW-OD-02, GW-OD-03, GW-OD-04, GW-OD-05, GW-OD-06, GW-EDS-01, GW-EDS-24, GW-GAP-04, GW-APP-41, GW-GAP-13
 #[test]
 fn the_objects_of_the_communication_profile() {
     let mut bench = Bench::new(&[]);
@@ -30,7 +30,8 @@ fn the_objects_of_the_communication_profile() {
         (0x1018, 0, Ok(4)),
         (0x1018, 1, Ok(0x161)),
         (0x1018, 2, Ok(0x1B59)),
-        (0x1018, 3, Ok(1)),
+        // As RevisionNumber of the data sheet, and not the version of the software.
+        (0x1018, 3, Ok(0)),
         (0x1018, 4, Ok(2611 * 100_000 + 1)),
         (0x1018, 5, NO_SUB_INDEX),
         (0x1016, 0, Ok(1)),

@@ -137,7 +137,7 @@ fn a_unit_without_supply_is_missed() {
     boots_up(&mut bench);
 }
 
-// GW-APP-27, GW-APP-32, GW-NOTE-33
+// GW-APP-27, GW-APP-32, GW-APP-46, GW-NOTE-33
 #[test]
 fn a_faulty_canopen_bus_is_tried_every_half_second() {
     for (settings, state) in [(gateway(&[(429, 100)]), 0x7F), (gateway(&[]), 0x00)] {
@@ -158,7 +158,15 @@ fn a_faulty_canopen_bus_is_tried_every_half_second() {
         assert_eq!(can_open(&bench), [12423]);
         remove(&mut bench, Fault::GatewayCanBus2);
         let sent = bench.pass(1_000_000);
-        assert!(sent.iter().all(|(_, frame)| frame.data() == [0x7F]), "it is not initialised anew: {sent:?}");
+        assert_eq!(
+            sent.first(),
+            Some(&(250_000, frame(0x701, &[state]))),
+            "the next attempt finds it in order"
+        );
+        assert!(
+            sent[1..].iter().all(|(_, frame)| frame.data() == [0x7F]),
+            "it is not initialised anew: {sent:?}"
+        );
         assert_eq!(can_open(&bench), [12423], "it stays in pre-operational");
         assert!(bench.read(0x2005, 0).is_ok_and(|errors| errors == 1 << 12));
         bench.nmt(1);
@@ -178,6 +186,29 @@ fn an_overflow_of_the_receive_buffer() {
     assert_eq!(bench.read(0x2005, 0), Ok(1 << 13));
     clear(&mut bench);
     assert_eq!(errors(&bench), []);
+}
+
+// GW-APP-49, GW-NOTE-29
+#[test]
+fn an_overflow_of_the_canopen_buffer_of_the_heinzmann_side() {
+    let mut bench = busy();
+    inject(&mut bench, Fault::CanOpenBuffer1);
+    assert_eq!((bench.gateway.state(), can_open(&bench)), (State::Undefined, [12422].into()));
+    assert_eq!(errors(&bench), [3071, 3074], "and not 3073");
+    assert_eq!(
+        [2401, 2402].map(|number| bench.gateway.measured(number)),
+        [Some(0); 2],
+        "it is another buffer"
+    );
+    assert!(bench.gateway.faults().next().is_none(), "it is over at once");
+    boots_up(&mut bench);
+    assert_eq!(bench.read(0x2005, 0), Ok(1 << 11));
+    bench.nmt(1);
+    assert_eq!(errors(&bench), []);
+    inject(&mut bench, Fault::CanOpenBuffer1);
+    boots_up(&mut bench);
+    clear(&mut bench);
+    assert_eq!((errors(&bench), bench.gateway.error_count(GatewayError::CanComm1)), ([].into(), 2));
 }
 
 // GW-APP-29, GW-APP-33, GW-NMT-10
@@ -202,8 +233,8 @@ fn an_overflow_of_the_sdo_transmit_buffer() {
 #[test]
 fn a_bus_that_takes_nothing_overflows_the_buffer_in_truth() {
     let mut bench = Bench::new(&[]);
-    // Answers that nobody takes: the seventeenth does not fit.
-    for _ in 0..17 {
+    // Answers that nobody takes: sixteen fit, the server holds the next one back, and one more is lost.
+    for _ in 0..18 {
         let request = frame(0x601, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]);
         edskit_runtime::Device::receive(&mut bench.gateway, bench.now, &request);
     }
@@ -353,5 +384,5 @@ fn the_timer_runs_in_milliseconds_and_begins_anew() {
     let before = timer(&bench);
     bench.pass(1_000 * GW);
     assert_eq!((before + 16_000) % 65_536, timer(&bench));
-    assert_eq!(bench.gateway.measured(3895), None, "nothing is modelled");
+    assert_eq!(bench.gateway.measured(2406), None, "the manual lists it and does not describe it");
 }

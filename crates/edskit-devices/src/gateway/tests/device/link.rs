@@ -36,6 +36,93 @@ fn the_units_must_know_each_other() {
     assert_eq!(bench.gateway.state(), State::Undefined);
 }
 
+/// What is shown where the bit rates of the two units are different.
+fn clashes(bench: &Bench) -> bool {
+    let errors: Vec<_> = bench.gateway.errors().collect();
+    let can_open: Vec<_> = bench.gateway.can_open_errors().iter().collect();
+    let is_shown = errors.contains(&GatewayError::CanBus1)
+        && errors.contains(&GatewayError::CanOpen)
+        && can_open.contains(&CanOpenError::GatewayCanBus1)
+        && can_open.contains(&CanOpenError::GovernorCanBus);
+    let [bus, open, of_governor, of_gateway] =
+        [3070, 3074, 12414, 12421].map(|number| bench.gateway.measured(number) == Some(1));
+    assert_eq!([bus, open, of_governor, of_gateway], [is_shown; 4]);
+    is_shown
+}
+
+// GW-CFG-46, GW-APP-50, GW-NOTE-37, GW-NOTE-48
+#[test]
+fn the_units_must_have_one_bit_rate() {
+    let manual: &[(u16, i32)] = &[(4416, 1), (410, 3)];
+    for (of_gateway, of_governor, is_different) in [
+        (&[(416, 500)][..], &[(416, 250)][..], true),
+        (&[(416, 500)], &[], true),
+        (&[], &[(416, 125)], true),
+        (&[], &[(409, 1000)], true),
+        (&[(416, 500)], &[(409, 500)], false),
+        (&[(416, 500)], &[(416, 500)], false),
+        (&[], &[(409, 250)], false),
+        // Whether a manual timing fits cannot be computed.
+        (&[(416, 500), (4416, 1)], &[], false),
+        (&[(416, 500)], &[(4409, 1)], false),
+        (manual, &[(4416, 1), (416, 1000)], false),
+        // The bit rate of CANopen is another one.
+        (&[(426, 1000)], &[], false),
+    ] {
+        let mut bench = Bench::off(&both(of_gateway, of_governor));
+        let sent = bench.pass(5_000_000);
+        let shown = (clashes(&bench), sent.is_empty(), bench.gateway.state() == State::Undefined);
+        assert_eq!(shown, (is_different, is_different, is_different), "{of_gateway:?} {of_governor:?}");
+        assert_eq!(bench.gateway.measured(2405), Some(u32::from(!is_different)));
+        assert_eq!(bench.sdo([0x40, 0, 0x10, 0, 0, 0, 0, 0]).is_none(), is_different);
+    }
+}
+
+// GW-APP-50
+#[test]
+fn a_bit_rate_counts_from_the_start_of_its_unit() {
+    let rate = |owner| Parameter::find(owner, 416).unwrap();
+    for unit in [Owner::Gateway, Owner::Governor] {
+        let mut bench = Bench::started(&[]);
+        bench.gateway.set_parameter(rate(unit), 500).unwrap();
+        bench.gateway.store(unit);
+        bench.pass(1_000_000);
+        assert_eq!(bench.gateway.state(), State::Operational, "not in effect yet");
+        let now = bench.now;
+        bench.gateway.reset(now, unit);
+        bench.pass(199_999);
+        assert!(!clashes(&bench));
+        bench.pass(1);
+        assert!(clashes(&bench), "with the start of {unit:?}");
+        assert_eq!((bench.pass(5_000_000), bench.gateway.state()), ([].into(), State::Undefined));
+        let now = bench.now;
+        bench.gateway.clear_errors(now);
+        assert!(clashes(&bench), "its cause is present");
+        // Mended in the other unit: stored, and started.
+        let other = if unit == Owner::Gateway { Owner::Governor } else { Owner::Gateway };
+        bench.gateway.set_parameter(rate(other), 500).unwrap();
+        bench.gateway.store(other);
+        assert_eq!(bench.pass(1_000_000), []);
+        let now = bench.now;
+        bench.gateway.reset(now, other);
+        assert_eq!(bench.pass(300_000).len(), 1, "the boot-up message");
+        assert_eq!(bench.gateway.state(), State::PreOperational);
+        bench.nmt(1);
+        assert!(bench.gateway.errors().next().is_none(), "the errors go as others do");
+        // A unit without supply is no participant of the bus.
+        bench.gateway.set_parameter(rate(other), 125).unwrap();
+        bench.gateway.store(other);
+        let now = bench.now;
+        bench.gateway.reset(now, other);
+        bench.pass(300_000);
+        assert!(clashes(&bench));
+        let now = bench.now;
+        bench.gateway.switch_off(now, Owner::Governor);
+        bench.gateway.clear_errors(now);
+        assert!(!bench.gateway.errors().any(|error| error == GatewayError::CanBus1));
+    }
+}
+
 // GW-CFG-31
 #[test]
 fn the_link_is_monitored_after_its_delay() {
@@ -83,6 +170,18 @@ fn what_the_heinzmann_bus_shows() {
         bench.gateway.clear_errors(now);
         assert_eq!(bench.gateway.measured(number), Some(0));
         assert_eq!(bench.pass(2 * DC).len(), 1);
+    }
+}
+
+// GW-NOTE-37
+#[test]
+fn two_numbers_of_the_governor_are_one_parameter() {
+    for (first, second, value) in [(409, 416, 500), (416, 409, 125), (4409, 4416, 1), (4416, 4409, 1)] {
+        let bench = Bench::off(&governor(&[(first, value)]));
+        let shown = bench.gateway.shown(Owner::Governor, second).map(|amount| amount.value());
+        assert_eq!(shown, Some(value), "{first} and {second}");
+        let of_gateway = bench.gateway.shown(Owner::Gateway, 416).map(|amount| amount.value());
+        assert_eq!(of_gateway, Some(250), "the gateway has its own");
     }
 }
 

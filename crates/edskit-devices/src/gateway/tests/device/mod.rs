@@ -1,13 +1,17 @@
 //! The live device in virtual time, to the microsecond.
 
+mod attempts;
 mod bus;
 mod dictionary;
+mod eeprom;
 mod errors;
 mod heartbeats;
 mod initialisation;
 mod link;
+mod reading;
 mod rpdos;
 mod sdo;
+mod standstill;
 mod states;
 mod tpdos;
 

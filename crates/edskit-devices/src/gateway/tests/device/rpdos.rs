@@ -163,6 +163,62 @@ fn monitoring_triggers_in_main_cycles_and_clears_itself() {
     }
 }
 
+// GW-NOTE-47, GW-APP-10, GW-APP-12
+#[test]
+fn before_the_first_rpdo_nothing_has_a_value() {
+    for (number, can_id) in [(900, 0x301), (901, 0x301), (906, 0x401), (917, 0x501)] {
+        for time in [16, 100, 3_984] {
+            let mut bench = Bench::new(&inputs(&[(16481, time), (16482, time), (16483, time), (16480, 0)]));
+            // Each entry into operational begins anew, whatever was received before.
+            for _ in 0..3 {
+                bench.nmt(1);
+                let value = bench.gateway.inputs().sensor(parameter(number));
+                assert_eq!(value, Some(Sensor::Awaited), "P{number} with {time} ms");
+                assert_eq!(bench.gateway.inputs().errors(), 0, "and that is no error");
+                bench.ask(can_id, &[9; 8]);
+                let value = bench.gateway.inputs().sensor(parameter(number));
+                assert_eq!(value, Some(Sensor::Valid(0x0909)));
+                bench.nmt(128);
+                assert_eq!(sensor(&mut bench, number), Sensor::Faulty);
+            }
+            bench.nmt(1);
+            bench.pass(4_100_000);
+            assert_eq!(sensor(&mut bench, number), Sensor::Faulty, "the monitoring has triggered");
+        }
+    }
+    // A low-active function is not active because of a bit that nobody has sent.
+    let mut bench = Bench::started(&inputs(&[(16480, 3_000)]));
+    assert!(!function(&mut bench, 835) && !function(&mut bench, 827));
+    bench.ask(0x201, &[0; 6]);
+    assert!(function(&mut bench, 835) && !function(&mut bench, 827));
+    // Nor is a sensor faulty because of a flag of the last time.
+    bench.ask(0x201, &[0, 0, 0, 0, 1, 0]);
+    bench.ask(0x301, &[9; 8]);
+    assert_eq!(sensor(&mut bench, 900), Sensor::Faulty);
+    bench.nmt(128);
+    bench.nmt(1);
+    bench.ask(0x301, &[9; 8]);
+    assert_eq!(sensor(&mut bench, 900), Sensor::Valid(0x0909));
+}
+
+// GW-NOTE-47
+#[test]
+fn the_engine_goes_on_until_canopen_brings_a_setpoint() {
+    let settings = governor(&[(900, 1), (4900, 3), (16481, 100), (16400, 2031), (16460, 16)]);
+    let mut bench = Bench::new(&settings);
+    bench.gateway.governor_mut().set_setpoint(1_300);
+    let setpoints = |bench: &mut Bench| {
+        bench.nmt(1);
+        let sent = bench.pass(8 * DC);
+        let words = sent.iter().filter(|(_, frame)| frame.can_id().raw() == 0x481);
+        words.map(|(_, frame)| u16::from_le_bytes([frame.data()[0], frame.data()[1]])).collect::<Vec<_>>()
+    };
+    assert_eq!(setpoints(&mut bench), [1_300; 8], "before the monitoring triggers and after it");
+    bench.ask(0x301, &900_u16.to_le_bytes());
+    bench.nmt(128);
+    assert_eq!(setpoints(&mut bench), [1_300; 8], "not the one of the last time either");
+}
+
 // GW-TIMING-11
 #[test]
 fn without_a_time_nothing_is_monitored() {

@@ -121,15 +121,90 @@ fn errors_without_status() {
     assert_eq!(bench.read(0x2000, 0), Ok(6));
 }
 
-// GW-GAP-10
+// GW-GAP-10, GW-NOTE-46, GW-TIMING-01
 #[test]
-fn operational_again_sends_once_again() {
-    let mut bench = Bench::started(&governor(&[(14401, 1)]));
-    assert_eq!(bench.pass(1_000_000).len(), 2);
-    bench.nmt(128);
-    assert_eq!(bench.pass(1_000_000).len(), 0);
-    bench.nmt(1);
-    assert_eq!(bench.pass(1_000_000).len(), 2);
+fn operational_again_sends_what_has_changed() {
+    for command in [128, 2] {
+        let mut bench = Bench::started(&governor(&[(14401, 1), (14402, 1)]));
+        bench.pass(60_000_000);
+        let again = |bench: &mut Bench| {
+            bench.nmt(command);
+            assert_eq!(bench.pass(1_000_000), []);
+            bench.nmt(1);
+            let sent = bench.pass(1_000_000);
+            sent.iter().map(|(_, frame)| frame.can_id().raw()).collect::<Vec<_>>()
+        };
+        assert_eq!(again(&mut bench), [], "nothing has changed");
+        bench.nmt(command);
+        bench.gateway.governor_mut().set_error(3001, true);
+        assert_eq!(
+            again(&mut bench),
+            [0x181, 0x381],
+            "an error, and the status that shows that there is one"
+        );
+        // It comes and goes while nothing may be sent.
+        bench.nmt(command);
+        bench.gateway.governor_mut().set_error(3002, true);
+        bench.pass(1_000_000);
+        bench.gateway.governor_mut().set_error(3002, false);
+        assert_eq!(again(&mut bench), []);
+        assert_eq!(again(&mut bench), []);
+    }
+}
+
+// GW-GAP-10, GW-NOTE-46
+#[test]
+fn every_initialisation_is_followed_by_everything() {
+    let all = [0x181, 0x281, 0x381];
+    let mut bench = Bench::started(&governor(&[(14401, 1), (14402, 1)]));
+    bench.pass(60_000_000);
+    let first = |bench: &mut Bench| {
+        bench.pass(300_000);
+        bench.nmt(1);
+        let sent = bench.pass(DC);
+        sent.iter().map(|(_, frame)| frame.can_id().raw()).collect::<Vec<_>>()
+    };
+    bench.nmt(129);
+    assert_eq!(first(&mut bench), all, "by the master");
+    let now = bench.now;
+    assert!(bench.gateway.command(now, State::Init));
+    assert_eq!(first(&mut bench), all, "by the governor");
+    for unit in [Owner::Gateway, Owner::Governor] {
+        let now = bench.now;
+        bench.gateway.reset(now, unit);
+        assert_eq!(first(&mut bench), all, "after a reset of {unit:?}");
+    }
+    for fault in [Fault::ReceiveBuffer2, Fault::CanOpenBuffer1] {
+        let now = bench.now;
+        bench.gateway.inject(now, fault);
+        assert_eq!(first(&mut bench), all, "after {fault:?}");
+    }
+}
+
+// GW-PDO-05, GW-PDO-08, GW-PDO-19
+#[test]
+fn bits_of_the_governor_are_left_out() {
+    let settings = governor(&[(16404, 2000), (16405, 12401), (16406, 3074), (16407, 14401), (16461, 100)]);
+    let mut bench = Bench::started(&[settings, gateway(&[(16404, 0x1C5)])].concat());
+    let sent = bench.pass(6 * DC);
+    let of_5 = sent.iter().find(|(_, frame)| frame.can_id().raw() == 0x1C5).unwrap();
+    assert_eq!(of_5.1.data().len(), 2);
+    // A TPDO of bits alone is not active, so that its identifier is in nobody's way.
+    let settings = governor(&[(16404, 12401), (16405, 4406), (16406, 14402), (16407, 3005), (16461, 100)]);
+    let mut bench = Bench::started(&[settings, gateway(&[(16404, 0x080)])].concat());
+    assert_eq!(bench.pass(1_000_000), []);
+}
+
+// GW-PDO-19, GW-PDO-06, GW-PDO-07
+#[test]
+fn parameters_of_the_governor_are_sent_with_their_values() {
+    let settings =
+        [(16400, 827), (16401, 400), (16402, 16460), (16403, 401), (16460, 16), (827, -5), (401, 1)];
+    let mut bench = Bench::started(&governor(&settings));
+    bench.pass(DC);
+    // -5 has a sign, so that it is in 2002h; 1.0 s are 100 steps of 10 ms.
+    assert_eq!(bench.read(0x2002, 1), Ok(0xFFFB));
+    assert_eq!([1, 2, 3].map(|sub_index| bench.read(0x2001, sub_index)), [Ok(100), Ok(16), Ok(1)]);
 }
 
 // GW-PDO-05, GW-PDO-06, GW-NOTE-03

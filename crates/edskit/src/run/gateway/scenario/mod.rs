@@ -1,6 +1,7 @@
 //! A scenario: what happens to the gateway, and when (docs/gateway.md).
 
 mod reading;
+mod shown;
 mod value;
 pub(super) mod words;
 
@@ -35,6 +36,8 @@ pub(super) enum Action {
     Set(Parameter, i32),
     /// The PC tool has a unit store its parameters.
     Store(Owner),
+    /// A PC program with this identification number is connected.
+    Tool(u16),
     /// The supply voltage, in mV.
     Supply(u16),
     /// What the next start finds in the EEPROM: the bits of 3099.
@@ -59,6 +62,8 @@ pub(super) enum Action {
     Command(State),
     /// The NMT master commands all nodes.
     Nmt(NmtCommand),
+    /// The PC tool reads a parameter or a measured value, by its number.
+    Read(Owner, u16),
 }
 
 impl Action {
@@ -70,6 +75,7 @@ impl Action {
             Self::Reset(_) => "reset",
             Self::Set(parameter, _) => word_for(&UNITS, parameter.owner()),
             Self::Store(_) => "store",
+            Self::Tool(_) => "pc-tool",
             Self::Supply(_) => "supply",
             Self::Eeprom(_) => "eeprom",
             Self::Setpoint(_) | Self::Load(_) | Self::Running(_) => "engine",
@@ -80,6 +86,7 @@ impl Action {
             Self::ClearErrors => "clear-errors",
             Self::Command(_) => "command",
             Self::Nmt(_) => "nmt",
+            Self::Read(..) => "read",
         }
     }
 
@@ -90,6 +97,7 @@ impl Action {
                 word_for(&UNITS, unit).to_owned()
             }
             Self::Set(parameter, value) => format!("{parameter} = {}", parameter.amount(value)),
+            Self::Tool(identifier) => identifier.to_string(),
             Self::Supply(millivolts) => format!("{} V", f64::from(millivolts) / 1000.0),
             Self::Eeprom(code) => format!("{code:02X}h"),
             Self::Setpoint(speed) => format!("setpoint = {speed}/min"),
@@ -100,6 +108,7 @@ impl Action {
             Self::ClearErrors => String::new(),
             Self::Command(state) => word_for(&COMMANDS, state).to_owned(),
             Self::Nmt(command) => word_for(&NMT, command).to_owned(),
+            Self::Read(unit, number) => format!("{} {number}", word_for(&UNITS, unit)),
         }
     }
 }

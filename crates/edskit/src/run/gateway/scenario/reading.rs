@@ -1,10 +1,13 @@
 //! Reading a scenario.
 
-use super::value::{Value, actions, time, unknown_key};
+use super::value::{Context, Value, actions, time, unknown_key};
 use super::words::KEYS;
 use super::{Action, Step};
 use crate::config::problem::{NO_TIME, Problem, TOO_LATE, WRONG_TYPE};
-use crate::config::{entries, print_problems, span, table_of, text_of, what_is};
+use crate::config::{
+    KnownSignals, Place, amend, entries, instead_of_scenario, print_problems, span, table_of, text_of,
+    unknown_in_one, what_is,
+};
 use crate::{Streams, files};
 use edskit_lint::{MOST_FINDINGS, Severity};
 use edskit_model::Document;
@@ -14,30 +17,42 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 /// The steps of a file in the order of their times; `None` where not all is understood. What there is to say on it is
-/// printed to the error stream. `end` is when the simulation ends, where there is one.
+/// printed to the error stream. `end` is when the simulation ends, where there is one, and `signals` are what is known of
+/// the governor.
 pub(in crate::run::gateway) fn read(
     path: &Path,
     end: Option<Microseconds>,
+    signals: &KnownSignals,
     streams: &mut Streams,
 ) -> io::Result<Option<Vec<Step>>> {
     let document = Document::from_vec(files::read(path, streams)?);
-    let (steps, problems) = steps_of(document.to_bytes(), end);
+    let (steps, problems) = steps_of(document.to_bytes(), end, signals);
     let is_complete = problems.iter().all(|problem| problem.severity < Severity::Error);
     print_problems(path, &document, problems, streams)?;
     Ok(is_complete.then_some(steps))
 }
 
 /// The steps that could be read, and what is wrong with the others.
-pub(super) fn steps_of(bytes: &[u8], end: Option<Microseconds>) -> (Vec<Step>, Vec<Problem>) {
+pub(super) fn steps_of(
+    bytes: &[u8],
+    end: Option<Microseconds>,
+    signals: &KnownSignals,
+) -> (Vec<Step>, Vec<Problem>) {
     let (mut steps, mut problems) = (Vec::new(), Vec::new());
     match text_of(bytes) {
-        Ok(text) => {
-            if let Some(root) = table_of(text, &mut problems) {
-                steps = steps_of_root(root.get_ref(), &mut problems);
+        Ok(text) => match instead_of_scenario(text) {
+            Some(problem) => problems.push(problem),
+            None => {
+                let text = amend(text, Place::Step, &mut problems).text;
+                if let Some(root) = table_of(&text, &mut problems) {
+                    let context = Context { text: &text, signals };
+                    steps = steps_of_root(root.get_ref(), &context, &mut problems);
+                }
             }
-        }
+        },
         Err(problem) => problems.push(problem),
     }
+    problems = unknown_in_one(problems);
     steps.sort_by_key(|step| step.at);
     for step in steps.iter().filter(|step| end.is_some_and(|end| step.at > end)) {
         let problem = Problem::at(TOO_LATE, step.span, "this step comes after the end of the simulation");
@@ -47,12 +62,12 @@ pub(super) fn steps_of(bytes: &[u8], end: Option<Microseconds>) -> (Vec<Step>, V
     (steps, problems)
 }
 
-fn steps_of_root(root: &DeTable<'_>, problems: &mut Vec<Problem>) -> Vec<Step> {
+fn steps_of_root(root: &DeTable<'_>, context: &Context<'_>, problems: &mut Vec<Problem>) -> Vec<Step> {
     let mut steps = Vec::new();
     for (key, key_span, value) in entries(root) {
         match (key, value.get_ref()) {
             ("step", DeValue::Array(values)) => {
-                steps.extend(values.iter().filter_map(|value| step(value, problems)));
+                steps.extend(values.iter().filter_map(|value| step(value, context, problems)));
             }
             ("step", _) => problems.push(no_step(value)),
             _ => problems.push(unknown_key("a scenario", key, key_span, &["step"])),
@@ -70,7 +85,7 @@ fn no_step(value: &Value<'_>) -> Problem {
     problem.help("write `[[step]]` for each, and its keys below it")
 }
 
-fn step(value: &Value<'_>, problems: &mut Vec<Problem>) -> Option<Step> {
+fn step(value: &Value<'_>, context: &Context<'_>, problems: &mut Vec<Problem>) -> Option<Step> {
     let DeValue::Table(table) = value.get_ref() else {
         problems.push(no_step(value));
         return None;
@@ -82,7 +97,7 @@ fn step(value: &Value<'_>, problems: &mut Vec<Problem>) -> Option<Step> {
     }
     for key in KEYS {
         if let Some(value) = table.get(key) {
-            said.extend(actions(key, value, problems));
+            said.extend(actions(key, value, context, problems));
         }
     }
     let Some(at) = table.get("at") else {

@@ -1,10 +1,11 @@
 use super::reading::steps_of;
 use super::words::KEYS;
 use super::*;
+use crate::config::KnownSignals;
 
 /// The actions of a file that is right, as the log names them, with their times in µs.
 fn actions(text: &str) -> Vec<(u64, String)> {
-    let (steps, problems) = steps_of(text.as_bytes(), None);
+    let (steps, problems) = steps_of(text.as_bytes(), None, &KnownSignals::default());
     assert!(problems.is_empty(), "{problems:?}");
     let of_step = |step: &Step| {
         let at = step.at.0;
@@ -28,6 +29,7 @@ fn steps_are_sorted_by_their_times_and_else_stay_in_order() {
 /// Every key in one step, backwards, with everything that it can hold.
 const EVERYTHING: &str = r#"
 [[step]]
+read = { governor = [12403, "Speed"], gateway = [2411, "PowerSupply", "P427"] }
 nmt = "reset-node"
 command = "pre-operational"
 clear-errors = true
@@ -39,6 +41,7 @@ engine = { running = false, load = 12.5, setpoint = 1200 }
 eeprom = 0x21
 supply = 7.499
 store = "both"
+pc-tool = 4711
 governor = { CanOpenSendErrors = 1 }
 gateway = { P427 = 5, "16404 CanOpTPDO5-16ID(0)" = 0x1C5, 400 = 1.5 }
 reset = "governor"

@@ -1,15 +1,24 @@
 //! Values of a step.
 
 use super::Action;
+use super::shown::shown;
 use super::words::{COMMANDS, NMT, UNITS, fault_name};
 use crate::config::problem::{OUT_OF_RANGE, Problem, UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
-use crate::config::{entries, parameters_of, span, what_is};
+use crate::config::{KnownSignals, Place, entries, parameters_of, span, what_is};
 use edskit_devices::gateway::{Fault, Owner};
 use edskit_lint::nearest;
 use edskit_model::Span;
 use edskit_runtime::Microseconds;
 use toml::Spanned;
 use toml::de::DeValue;
+
+/// What is around the values of a scenario.
+pub(super) struct Context<'t> {
+    /// The text of the file.
+    pub(super) text: &'t str,
+    /// What is known of the governor.
+    pub(super) signals: &'t KnownSignals,
+}
 
 /// A value with its place.
 pub(super) type Value<'t> = Spanned<DeValue<'t>>;
@@ -53,6 +62,8 @@ const EEPROM: Scale = Scale {
     steps: 1.0,
     allowed: "0 to 255, the bits of 3099",
 };
+const TOOL: Scale =
+    Scale { what: "a whole number", low: 0.0, high: 65535.0, steps: 1.0, allowed: "0 to 65535, as 3850" };
 const SETPOINT: Scale =
     Scale { what: "a whole number", low: 0.0, high: 3000.0, steps: 1.0, allowed: "0 to 3000 (1/min)" };
 const LOAD: Scale =
@@ -71,14 +82,21 @@ pub(super) fn time(key: &str, value: &Value<'_>) -> Result<Microseconds, Problem
 }
 
 /// What a key says is to be done; what is wrong with it goes to `problems`.
-pub(super) fn actions(key: &str, value: &Value<'_>, problems: &mut Vec<Problem>) -> Vec<Action> {
+pub(super) fn actions(
+    key: &str,
+    value: &Value<'_>,
+    context: &Context<'_>,
+    problems: &mut Vec<Problem>,
+) -> Vec<Action> {
     let one = |action: Result<Action, Problem>| action.map(|action| vec![action]);
     let actions = match key {
         "off" => units(key, value, Action::Off),
         "on" => units(key, value, Action::On),
         "reset" => units(key, value, Action::Reset),
-        "gateway" => return parameters(key, value, Owner::Gateway, problems),
-        "governor" => return parameters(key, value, Owner::Governor, problems),
+        "gateway" => return parameters(key, value, Owner::Gateway, context, problems),
+        "governor" => return parameters(key, value, Owner::Governor, context, problems),
+        "pc-tool" => one(number(key, value, &TOOL).map(|identifier| Action::Tool(identifier as u16))),
+        "read" => return read(key, value, context, problems),
         "store" => units(key, value, Action::Store),
         "supply" => one(number(key, value, &SUPPLY).map(|millivolts| Action::Supply(millivolts as u16))),
         "eeprom" => one(number(key, value, &EEPROM).map(|code| Action::Eeprom(code as u8))),
@@ -201,14 +219,42 @@ fn clear_errors(key: &str, value: &Value<'_>) -> Result<Action, Problem> {
     }
 }
 
-fn parameters(key: &str, value: &Value<'_>, owner: Owner, problems: &mut Vec<Problem>) -> Vec<Action> {
+fn parameters(
+    key: &str,
+    value: &Value<'_>,
+    owner: Owner,
+    context: &Context<'_>,
+    problems: &mut Vec<Problem>,
+) -> Vec<Action> {
     let DeValue::Table(table) = value.get_ref() else {
         let problem = wrong_type(key, "a table of parameters", value);
         problems.push(problem.help(format!("write `{key} = {{ P400 = 1.0 }}`")));
         return Vec::new();
     };
-    let settings = parameters_of(owner, entries(table), problems);
+    let settings = parameters_of(owner, entries(table), context.text, Place::Step, problems);
+    problems.extend(settings.iter().filter_map(|(setting, _)| setting.decimal()));
     settings.into_iter().map(|(setting, value)| Action::Set(setting.parameter, value)).collect()
+}
+
+/// What `read` names of each unit.
+fn read(key: &str, value: &Value<'_>, context: &Context<'_>, problems: &mut Vec<Problem>) -> Vec<Action> {
+    let DeValue::Table(table) = value.get_ref() else {
+        let problem = wrong_type(key, "a table of units", value);
+        problems.push(problem.help(format!("write `{key} = {{ gateway = [2411, 12403] }}`")));
+        return Vec::new();
+    };
+    let mut actions = Vec::new();
+    for (name, key_span, value) in entries(table) {
+        let Some((_, unit)) = UNITS.into_iter().find(|(word, _)| *word == name) else {
+            let words = UNITS.map(|(word, _)| word);
+            problems.push(unknown_key(&format!("`{key}`"), name, key_span, &words));
+            continue;
+        };
+        actions.extend(each(value, problems, |value| {
+            shown(unit, value, context.signals).map(|number| Action::Read(unit, number))
+        }));
+    }
+    actions
 }
 
 fn engine(key: &str, value: &Value<'_>, problems: &mut Vec<Problem>) -> Vec<Action> {

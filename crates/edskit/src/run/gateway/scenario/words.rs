@@ -4,12 +4,13 @@ use edskit_devices::gateway::{Fault, Owner, State};
 use edskit_types::NmtCommand;
 
 /// The keys of a step beside `at`, in the order in which they are carried out.
-pub(in crate::run::gateway) const KEYS: [&str; 16] = [
+pub(in crate::run::gateway) const KEYS: [&str; 18] = [
     "off",
     "on",
     "reset",
     "gateway",
     "governor",
+    "pc-tool",
     "store",
     "supply",
     "eeprom",
@@ -21,6 +22,7 @@ pub(in crate::run::gateway) const KEYS: [&str; 16] = [
     "clear-errors",
     "command",
     "nmt",
+    "read",
 ];
 
 /// The two control units.
@@ -55,6 +57,7 @@ pub(in crate::run::gateway) fn fault_name(fault: Fault) -> &'static str {
         Fault::GatewayCanBus1 => "gateway-can-bus-1",
         Fault::GatewayTransmitBuffer1 => "gateway-transmit-buffer-1",
         Fault::GatewayReceiveBuffer1 => "gateway-receive-buffer-1",
+        Fault::CanOpenBuffer1 => "canopen-buffer-1",
         Fault::DuplicateGateway => "duplicate-gateway",
         Fault::GatewayCanBus2 => "gateway-can-bus-2",
         Fault::ReceiveBuffer2 => "receive-buffer-2",

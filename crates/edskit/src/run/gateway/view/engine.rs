@@ -1,11 +1,13 @@
 //! The values of the engine.
 
+use super::text::wrapped;
 use super::titled;
 use crate::run::gateway::session::LiveGateway;
 use edskit_devices::gateway::{Governor, NAMED_SIGNALS, Signal, Signals};
 use ratatui::Frame;
 use ratatui::layout::Rect;
-use ratatui::widgets::{Paragraph, Wrap};
+use ratatui::text::Line;
+use ratatui::widgets::Paragraph;
 
 /// The title and two lines of values.
 pub(super) const ROWS: u16 = 3;
@@ -21,6 +23,8 @@ pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, gateway: &LiveGateway) {
     };
     let values: Vec<String> = NAMED_SIGNALS.iter().map(value).collect();
     let status = format!("status\u{A0}{:02X}h", governor.engine_status());
-    let text = Paragraph::new(format!("{}  {status}", values.join("  "))).wrap(Wrap { trim: true });
-    frame.render_widget(text.block(titled("engine")), area);
+    let text = format!("{}  {status}", values.join("  "));
+    let room = usize::from(area.height.saturating_sub(1));
+    let lines = wrapped(&text, area.width, 0, room).into_iter().map(Line::raw);
+    frame.render_widget(Paragraph::new(lines.collect::<Vec<_>>()).block(titled("engine", area)), area);
 }

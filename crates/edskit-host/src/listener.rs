@@ -1,8 +1,5 @@
 //! Taking connections for one protocol.
 
-use super::board::Board;
-use super::dialect::Dialect;
-use super::session::Session;
 use crate::BusError;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
@@ -13,33 +10,33 @@ use std::time::Duration;
 /// How long to rest where the system cannot give a connection, for lack of file handles say.
 const REST: Duration = Duration::from_millis(50);
 
-/// A socket that listens, and the thread that serves it.
-pub(super) struct Listener {
+/// A socket that listens, and the thread that takes its connections.
+pub(crate) struct Listener {
     address: SocketAddr,
     is_stopping: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Listener {
-    pub(super) fn start(
+    /// Gives each connection to `take`, which is dropped with the listener.
+    pub(crate) fn start(
         address: SocketAddr,
         protocol: &'static str,
-        board: &Arc<Board>,
-        dialect: fn() -> Box<dyn Dialect>,
+        take: impl FnMut(TcpStream) + Send + 'static,
     ) -> Result<Self, BusError> {
         let fail = |source| BusError::Listen { address: address.to_string(), protocol, source };
         let socket = TcpListener::bind(address).map_err(fail)?;
         let address = socket.local_addr().map_err(fail)?;
         let is_stopping = Arc::new(AtomicBool::new(false));
-        let (board, stop) = (Arc::clone(board), Arc::clone(&is_stopping));
+        let stop = Arc::clone(&is_stopping);
         let thread = thread::Builder::new()
-            .name(format!("hub {protocol}"))
-            .spawn(move || serve(&socket, &board, dialect, &stop))
+            .name(format!("listening for {protocol}"))
+            .spawn(move || serve(&socket, &stop, take))
             .map_err(BusError::Thread)?;
         Ok(Self { address, is_stopping, thread: Some(thread) })
     }
 
-    pub(super) fn address(&self) -> SocketAddr {
+    pub(crate) fn address(&self) -> SocketAddr {
         self.address
     }
 }
@@ -56,17 +53,15 @@ impl Drop for Listener {
     }
 }
 
-/// Takes connections until the listener is dropped; then ends the sessions.
-fn serve(socket: &TcpListener, board: &Arc<Board>, dialect: fn() -> Box<dyn Dialect>, stop: &AtomicBool) {
-    let mut sessions: Vec<Session> = Vec::new();
+/// Takes connections until the listener is dropped.
+fn serve(socket: &TcpListener, stop: &AtomicBool, mut take: impl FnMut(TcpStream)) {
     loop {
         let connection = socket.accept();
         if stop.load(Ordering::Acquire) {
             return;
         }
-        sessions.retain(|session| !session.is_over());
         match connection {
-            Ok((stream, _)) => sessions.extend(Session::start(stream, board, dialect())),
+            Ok((stream, _)) => take(stream),
             Err(_) => thread::sleep(REST),
         }
     }

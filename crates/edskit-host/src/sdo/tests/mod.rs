@@ -1,3 +1,7 @@
+mod fallback;
+mod heard;
+mod lengths;
+
 use super::*;
 use edskit_runtime::{Crc, Frame, Instant, Microseconds};
 use edskit_types::{AbortCode, Index, NodeId, SubIndex};
@@ -36,6 +40,13 @@ impl Bench {
         frames.map(|frame| frame.data().to_vec()).collect()
     }
 
+    /// So many frames that the client sends now.
+    fn some_sent(&mut self, count: usize) -> Vec<Vec<u8>> {
+        (0..count)
+            .map(|_| self.transfer.transmit(self.now).expect("there is more to send").data().to_vec())
+            .collect()
+    }
+
     /// The server answers with these bytes and zeros, and the client sends what it wants.
     fn answer(&mut self, data: &[u8]) -> Vec<Vec<u8>> {
         let mut message = [0; 8];
@@ -50,7 +61,7 @@ impl Bench {
         self.sent()
     }
 
-    fn result(&mut self) -> Result<Vec<u8>, SdoError> {
+    fn result(&mut self) -> Result<SdoValue, SdoError> {
         self.transfer.result().expect("the transfer has ended")
     }
 
@@ -121,28 +132,108 @@ fn lost_segments_of_a_block_come_again() {
     assert!(bench.result().unwrap().is_empty());
 }
 
+/// A block of which `sent` segments have been handed to the bus.
+fn begun_block(length: usize, sent: usize) -> Bench {
+    let value: Vec<u8> = (0..length).map(|place| (place % 251) as u8).collect();
+    let mut bench = Bench::write(SdoMode::Block, &value);
+    bench.sent();
+    let begun = Frame::new(channel().response, &[0xA4, 3, 0x20, 1, 127, 0, 0, 0]);
+    bench.transfer.receive(bench.now, &begun);
+    bench.some_sent(sent);
+    bench
+}
+
+// U1 of the field reports: CANopenNode issue 426.
 #[test]
-fn where_blocks_are_refused_segments_do() {
-    let value = [7; 300];
-    let mut bench = Bench::write(SdoMode::Automatic, &value);
-    assert_eq!(bench.sent()[0][0], 0xC6);
-    assert_eq!(bench.answer(&abort(0x0504_0001)), [[0x21, 3, 0x20, 1, 44, 1, 0, 0]]);
+fn a_block_may_be_confirmed_before_it_is_out() {
+    // Segment 10 of 100 is lost, and the server says so after 12.
+    let mut bench = begun_block(700, 12);
+    let next = bench.answer(&[0xA2, 9, 127]);
+    assert_eq!(next.len(), 91);
+    assert_eq!(next[0], [1, 63, 64, 65, 66, 67, 68, 69]);
+    assert_eq!(next[90][0], 0x80 | 91);
+    assert_eq!(bench.answer(&[0xA2, 91, 127])[0][0], 0xC1);
+    bench.answer(&[0xA1]);
+    bench.result().unwrap();
 
-    let mut bench = Bench::read(SdoMode::Automatic);
-    bench.sent();
-    let requests = bench.answer(&[0x41, 3, 0x20, 1, 44, 1]);
-    assert_eq!(requests, [abort(0x0800_0000), vec![0xA4, 3, 0x20, 1, 127, 0, 0, 0]]);
-    assert_eq!(bench.answer(&abort(0x0504_0001)), [[0x40, 3, 0x20, 1, 0, 0, 0, 0]]);
-    assert_eq!(bench.answer(&[0x41, 3, 0x20, 1, 44, 1]), [[0x60, 0, 0, 0, 0, 0, 0, 0]]);
+    // None of them, all of them, and another size of the blocks to come.
+    let mut bench = begun_block(700, 5);
+    assert_eq!(bench.answer(&[0xA2, 0, 127])[0], [1, 0, 1, 2, 3, 4, 5, 6]);
+    let mut bench = begun_block(700, 5);
+    let next = bench.answer(&[0xA2, 5, 3]);
+    assert_eq!(next.iter().map(|segment| segment[0]).collect::<Vec<_>>(), [1, 2, 3]);
+    assert_eq!(next[0][1], 35);
 
-    let mut bench = Bench::write(SdoMode::Automatic, &value);
-    bench.sent();
-    bench.answer(&abort(0x0601_0002));
-    assert_eq!(bench.error(), "the server has refused it: 06010002h: attempt to write a read-only object");
+    // A server that drops the tenth of every block: the same words, and each counts.
+    let mut bench = begun_block(700, 12);
+    for block in 1..=9_usize {
+        bench.transfer.receive(bench.now, &Frame::new(channel().response, &[0xA2, 9, 127, 0, 0, 0, 0, 0]));
+        let next = bench.some_sent(12);
+        assert_eq!(next[0][1], ((block * 63) % 251) as u8, "{block}");
+    }
+}
+
+#[test]
+fn a_repeated_confirmation_does_not_skip_segments() {
+    let mut bench = begun_block(700, 12);
+    let early = Frame::new(channel().response, &[0xA2, 9, 127, 0, 0, 0, 0, 0]);
+    bench.transfer.receive(bench.now, &early);
+    bench.transfer.receive(bench.now, &early);
+    assert_eq!(bench.some_sent(3)[2], [3, 77, 78, 79, 80, 81, 82, 83]);
+    bench.transfer.receive(bench.now, &early);
+    assert_eq!(bench.some_sent(1)[0][0], 4, "the block goes on");
+    // Nor does one of more than was sent.
+    bench.transfer.receive(bench.now, &Frame::new(channel().response, &[0xA2, 127, 127, 0, 0, 0, 0, 0]));
+    assert_eq!(bench.some_sent(1)[0][0], 5);
+}
+
+// U8 of the field reports: canopen-stack issue 53.
+#[test]
+fn an_abort_with_reserved_bits_is_one_and_none_is_answered() {
+    for command in 0x80..=0x9F_u8 {
+        let refused = [command, 3, 0x20, 1, 2, 0, 1, 6];
+        let benches = [
+            Bench::read(SdoMode::Segmented),
+            Bench::write(SdoMode::Segmented, &[1; 9]),
+            Bench::read(SdoMode::Block),
+            Bench::write(SdoMode::Block, &[1; 9]),
+        ];
+        for mut bench in benches {
+            bench.sent();
+            assert!(bench.answer(&refused).is_empty(), "{command:02X}h");
+            assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::READ_ONLY))), "{command:02X}h");
+        }
+        let mut bench = Bench::read(SdoMode::Segmented);
+        bench.sent();
+        bench.transfer.receive(bench.now, &Frame::new(channel().response, &[0x41, 3, 0x20, 1, 9, 0, 0, 0]));
+        bench.transfer.receive(bench.now, &Frame::new(channel().response, &refused));
+        assert!(bench.sent().is_empty(), "what was to be asked next is not asked any more");
+        bench.result().unwrap_err();
+        let mut bench = begun_block(700, 12);
+        assert!(bench.answer(&refused).is_empty());
+        bench.result().unwrap_err();
+    }
+    // Within a block that is read, what has the next number is a segment.
     let mut bench = Bench::read(SdoMode::Block);
     bench.sent();
-    bench.answer(&abort(0x0504_0001));
-    assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::UNKNOWN_COMMAND))));
+    bench.answer(&[0xC6, 3, 0x20, 1, 3]);
+    assert_eq!(bench.answer(&[0x81, 3, 0x20, 1])[0][..2], [0xA2, 1]);
+    let mut bench = Bench::read(SdoMode::Block);
+    bench.sent();
+    bench.answer(&[0xC6, 3, 0x20, 1, 3]);
+    assert!(bench.answer(&abort(0x0800_0000)).is_empty());
+    assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::GENERAL_ERROR))));
+    let mut bench = Bench::read(SdoMode::Block);
+    bench.sent();
+    bench.answer(&[0xC6, 3, 0x20, 1, 21]);
+    bench.answer(&[1]);
+    assert!(bench.answer(&[0x9F, 3, 0x20, 1, 0, 0, 0, 8]).is_empty());
+    assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::GENERAL_ERROR))));
+    // Some servers leave the place out.
+    let mut bench = Bench::read(SdoMode::Segmented);
+    bench.sent();
+    bench.answer(&[0x81, 0, 0, 0, 0, 0, 0, 8]);
+    assert!(matches!(bench.result(), Err(SdoError::Aborted(AbortCode::GENERAL_ERROR))));
 }
 
 #[test]
@@ -188,6 +279,21 @@ fn doubled_frames_of_blocks_are_passed_over() {
     assert!(bench.answer(&[0x82]).is_empty());
     assert_eq!(bench.answer(&[0xC1]), [[0xA1, 0, 0, 0, 0, 0, 0, 0]]);
     assert_eq!(bench.result().unwrap(), [0; 28]);
+
+    // A last segment that is no abort, with the place in it, and one that is no reserved command.
+    for (count, data) in [(2, [3, 0x20, 1, 0, 0, 0, 0]), (100, [7; 7])] {
+        let mut bench = Bench::read(SdoMode::Block);
+        bench.sent();
+        bench.answer(&[0xC0, 3, 0x20, 1]);
+        for number in 1..count {
+            bench.answer(&[number]);
+        }
+        let last = [&[0x80 | count][..], &data].concat();
+        assert_eq!(bench.answer(&last), [[0xA2, count, 127, 0, 0, 0, 0, 0]]);
+        assert!(bench.answer(&last).is_empty() && !bench.transfer.has_ended(), "{count}");
+        bench.answer(&[0xC1]);
+        assert_eq!(bench.result().unwrap().len(), 7 * usize::from(count));
+    }
 }
 
 #[test]
@@ -207,7 +313,7 @@ fn a_silent_server_is_told() {
     bench.wait(500);
     assert_eq!(
         bench.error(),
-        "no answer in time; the last message, 60 03 20 01 00 00 00 00, is the answer to something else"
+        "no answer in time; the last message, 60 03 20 01 00 00 00 00, is not the answer to this request"
     );
 }
 
@@ -228,7 +334,7 @@ fn answers_against_the_protocol_end_the_transfer() {
     assert_eq!(begun(&[0x41, 3, 0x20, 1, 9]).answer(&[0xE0]), [abort(0x0504_0001)]);
     assert_eq!(begun(&[0x41, 3, 0x20, 1, 9]).answer(&[0x0E]), [abort(0x0607_0010)]);
     assert_eq!(begun(&[0x41, 3, 0x20, 1, 9]).answer(&[0x01, 1]), [abort(0x0607_0013)]);
-    assert_eq!(begun(&[0x41, 3, 0x20, 1, 2]).answer(&[0x01, 1]), [abort(0x0607_0012)]);
+    assert_eq!(begun(&[0x41, 3, 0x20, 1, 2]).answer(&[0x03, 1]), [abort(0x0607_0012)]);
     let mut bench = Bench::read(SdoMode::Segmented);
     bench.sent();
     assert_eq!(bench.answer(&[0x41, 3, 0x20, 1, 1, 0, 0, 4]), [abort(0x0504_0005)]);

@@ -1,109 +1,250 @@
-//! SDO: what each message does, and which transfer it belongs to (CiA 301 v4.2, 7.2.4).
+//! Which transfer a message belongs to, and what it does there.
 
-use crate::monitor::network::Shown;
-use edskit_types::{AbortCode, Index, SdoMessage, SubIndex};
-use serde::Serialize;
+use super::running::Running;
+use super::{Held, Step};
+use edskit_host::sdo::SdoValue;
+use edskit_types::{AbortCode, Index, SubIndex};
 
-/// An SDO message.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub(crate) struct Sdo {
-    pub(crate) node: u8,
-    /// Whether it comes from the client.
-    pub(crate) is_request: bool,
-    pub(crate) step: String,
-    pub(crate) index: Option<u16>,
-    pub(crate) sub_index: Option<u8>,
-    pub(crate) name: Option<String>,
-    /// What has been read or written, with the message that completes it
-    #[serde(flatten)]
-    pub(crate) shown: Option<Shown>,
-    /// Whether the value was written.
-    #[serde(skip)]
-    pub(crate) is_written: bool,
-    pub(crate) abort_code: Option<u32>,
-    #[serde(skip)]
-    pub(crate) abort: Option<AbortCode>,
-}
-
-/// What a message is, before names are known.
-pub(super) struct Step {
-    what: String,
-    place: Option<(Index, SubIndex)>,
-    /// The value that is complete now, and whether it is written.
-    value: Option<(Vec<u8>, bool)>,
-    abort: Option<AbortCode>,
-}
-
-impl Sdo {
-    /// The message with names and values, which `look_up` knows.
-    pub(super) fn new(
-        node: u8,
-        message: SdoMessage,
-        step: Step,
-        look_up: impl FnOnce(Index, SubIndex, Option<&[u8]>) -> (Option<String>, Option<Shown>),
-    ) -> Self {
-        let Step { what, place, value, abort } = step;
-        let bytes = value.as_ref().map(|(bytes, _)| &bytes[..]);
-        let (name, shown) = place.map_or((None, None), |(index, sub_index)| look_up(index, sub_index, bytes));
-        Self {
-            node,
-            is_request: message == SdoMessage::Request,
-            step: what,
-            index: place.map(|(index, _)| index.0),
-            sub_index: place.map(|(_, sub_index)| sub_index.0),
-            name,
-            shown,
-            is_written: value.is_some_and(|(_, is_written)| is_written),
-            abort_code: abort.map(|code| code.0),
-            abort,
-        }
-    }
-}
-
-/// How much of a value is remembered; of longer ones the transfer is followed, but the value is not shown.
-const MOST_BYTES: usize = 1 << 20;
-
-/// The channel of a node with the transfer that runs on it.
+/// A channel of a node with the transfer that runs on it.
 #[derive(Default)]
-pub(super) struct Channel(Option<Running>);
-
-struct Running {
-    place: (Index, SubIndex),
-    is_write: bool,
-    /// `None` where a part is missing or where it is too long.
-    data: Option<Vec<u8>>,
-    /// The toggle bit of the segment that was taken last.
-    toggle: Option<u8>,
-    /// In a block transfer: the segments of the block that came in order, and whether segments come now.
-    block: Vec<[u8; 7]>,
-    is_in_block: bool,
-    is_complete: bool,
+pub(crate) struct Channel {
+    running: Option<Running>,
+    /// What has been written in one message, until it is confirmed.
+    written: Option<((Index, SubIndex), SdoValue)>,
+    /// The write that was confirmed last; the same words once more say nothing new.
+    confirmed: Option<(Index, SubIndex)>,
 }
 
-impl Running {
-    fn new(place: (Index, SubIndex), is_write: bool) -> Self {
-        let (data, block) = (Some(Vec::new()), Vec::new());
-        Self { place, is_write, data, toggle: None, block, is_in_block: false, is_complete: false }
-    }
-
-    fn append(&mut self, bytes: &[u8]) {
-        self.data = self.data.take().filter(|data| data.len() + bytes.len() <= MOST_BYTES);
-        if let Some(data) = &mut self.data {
-            data.extend_from_slice(bytes);
+impl Channel {
+    pub(crate) fn request(&mut self, message: [u8; 8]) -> Step {
+        if let Some(segment) = self.block_segment(message, true) {
+            return segment;
+        }
+        let command = message[0];
+        match command >> 5 {
+            0 => self.segment(message, true),
+            1 => self.begin_write(message),
+            2 => self.begin("read", message, false),
+            3 => self.step(format!("next segment, toggle {}", command >> 4 & 1)),
+            4 => self.abort(message),
+            5 => match command & 3 {
+                0 => self.begin(&format!("read in blocks of {}", message[4]), message, false),
+                1 => {
+                    let step = self.step("end of blocks confirmed".to_owned());
+                    self.running = None;
+                    step
+                }
+                2 => self.confirm(message),
+                _ => {
+                    if let Some(running) = &mut self.running {
+                        running.is_in_block = true;
+                    }
+                    self.step("start of blocks".to_owned())
+                }
+            },
+            6 if command & 1 == 0 => {
+                let length = said_length(command & 2 != 0, message);
+                self.begin(&format!("write in blocks{length}"), message, true)
+            }
+            6 => self.end_of_blocks(message),
+            _ => self.step(format!("unknown command {command:02X}h")),
         }
     }
 
-    /// A confirmed part of a block.
-    fn confirm(&mut self, sequence: u8) {
-        let segments = std::mem::take(&mut self.block);
-        if segments.len() < usize::from(sequence) {
-            self.data = None;
+    pub(crate) fn response(&mut self, message: [u8; 8]) -> Step {
+        if let Some(segment) = self.block_segment(message, false) {
+            return segment;
         }
-        for segment in segments.iter().take(sequence.into()) {
-            self.append(segment);
+        let command = message[0];
+        match command >> 5 {
+            0 => self.segment(message, false),
+            1 => self.segment_confirmed(),
+            2 => self.read_begun(message),
+            3 => self.write_begun(message),
+            4 => self.abort(message),
+            5 => match command & 3 {
+                0 => {
+                    if let Some(running) = &mut self.running {
+                        running.is_in_block = true;
+                    }
+                    self.at(message, format!("blocks of {}", message[4]))
+                }
+                1 => self.complete("blocks complete".to_owned()),
+                _ => self.confirm(message),
+            },
+            6 if command & 1 == 0 => {
+                let length = said_length(command & 2 != 0, message);
+                self.at(message, format!("read in blocks begun{length}"))
+            }
+            6 => {
+                let mut step = self.end_of_blocks(message);
+                if let Some(running) = &mut self.running {
+                    let value = running.value();
+                    let place = running.place;
+                    step.held = Some(Held { place, value: value.clone(), is_written: false });
+                    step.value = value.map(|value| (value, false));
+                }
+                step
+            }
+            _ => self.step(format!("unknown command {command:02X}h")),
         }
-        self.is_complete &= segments.len() == usize::from(sequence);
-        self.is_in_block = !self.is_complete;
+    }
+
+    /// A message that belongs to what is running.
+    fn step(&self, what: String) -> Step {
+        Step {
+            what,
+            place: self.running.as_ref().map(|running| running.place),
+            value: None,
+            held: None,
+            abort: None,
+        }
+    }
+
+    /// A message that names its place.
+    fn at(&self, message: [u8; 8], what: String) -> Step {
+        Step { what, place: Some(place_of(message)), value: None, held: None, abort: None }
+    }
+
+    fn begin(&mut self, what: &str, message: [u8; 8], is_write: bool) -> Step {
+        self.running = Some(Running::new(place_of(message), is_write));
+        (self.written, self.confirmed) = (None, None);
+        self.at(message, what.to_owned())
+    }
+
+    fn abort(&mut self, message: [u8; 8]) -> Step {
+        self.running = None;
+        self.written = None;
+        Step { abort: Some(AbortCode(number_of(message))), ..self.at(message, "abort".to_owned()) }
+    }
+
+    /// The transfer is over, and its value is known.
+    fn complete(&mut self, what: String) -> Step {
+        let mut step = self.step(what);
+        if let Some(mut running) = self.running.take() {
+            let (place, value, is_written) = (running.place, running.value(), running.is_write);
+            step.held = Some(Held { place, value: value.clone(), is_written });
+            step.value = value.map(|value| (value, is_written));
+        }
+        step
+    }
+
+    /// The message that begins a transfer of more than one says how long it is, or does not.
+    fn announce(&mut self, is_said: bool, message: [u8; 8]) -> String {
+        if let Some(running) = &mut self.running {
+            running.announced = is_said.then(|| number_of(message));
+        }
+        said_length(is_said, message)
+    }
+
+    fn begin_write(&mut self, message: [u8; 8]) -> Step {
+        let command = message[0];
+        if command & 2 == 0 {
+            let mut step = self.begin("write in segments", message, true);
+            step.what += &self.announce(command & 1 != 0, message);
+            return step;
+        }
+        let mut step = self.begin("write", message, true);
+        self.running = None;
+        self.written = Some((place_of(message), expedited(message)));
+        step.value = Some((expedited(message), true));
+        step
+    }
+
+    fn write_begun(&mut self, message: [u8; 8]) -> Step {
+        let is_in_segments = self.running.as_ref().is_some_and(|running| running.is_write);
+        let what = if is_in_segments { "ready for segments" } else { "write confirmed" };
+        let mut step = self.at(message, what.to_owned());
+        let place = place_of(message);
+        if !is_in_segments && self.confirmed != Some(place) {
+            // Without its request, it is known that the entry was written, but not what.
+            let value = self.written.take_if(|(written, _)| *written == place).map(|(_, value)| value);
+            step.held = Some(Held { place, value, is_written: true });
+            self.confirmed = Some(place);
+        }
+        step
+    }
+
+    fn read_begun(&mut self, message: [u8; 8]) -> Step {
+        let command = message[0];
+        if command & 2 == 0 {
+            let length = self.announce(command & 1 != 0, message);
+            return self.at(message, format!("read in segments begun{length}"));
+        }
+        self.running = None;
+        let value = expedited(message);
+        let held = Some(Held { place: place_of(message), value: Some(value.clone()), is_written: false });
+        Step { value: Some((value, false)), held, ..self.at(message, "value".to_owned()) }
+    }
+
+    /// A segment of a transfer that is confirmed segment by segment. A repeated one counts once.
+    fn segment(&mut self, message: [u8; 8], is_write: bool) -> Step {
+        let command = message[0];
+        let (toggle, is_last) = (command >> 4 & 1, command & 1 != 0);
+        let bytes = &message[1..8 - usize::from(command >> 1 & 7)];
+        let what = format!("{}segment, toggle {toggle}", if is_last { "last " } else { "" });
+        if let Some(running) = &mut self.running
+            && running.is_write == is_write
+            && running.toggle != Some(toggle)
+        {
+            running.toggle = Some(toggle);
+            running.append(bytes);
+            running.is_complete = is_last;
+            // A full segment is also one whose length is not said.
+            running.unsure = if bytes.len() == 7 { 6 } else { 0 };
+            // What is written counts when the server has confirmed it.
+            if is_last && !is_write {
+                return self.complete(what);
+            }
+        }
+        self.step(what)
+    }
+
+    fn segment_confirmed(&mut self) -> Step {
+        let is_complete =
+            self.running.as_ref().is_some_and(|running| running.is_write && running.is_complete);
+        let what = "segment confirmed".to_owned();
+        if is_complete { self.complete(what) } else { self.step(what) }
+    }
+
+    /// A segment of a block, if this is where they come: its first byte is a number and no command.
+    fn block_segment(&mut self, message: [u8; 8], is_request: bool) -> Option<Step> {
+        let [head, bytes @ ..] = message;
+        let running = self.running.as_mut()?;
+        if !running.is_in_block || running.is_write != is_request || head == 0x80 {
+            return None;
+        }
+        let (number, is_last) = (head & 0x7F, head & 0x80 != 0);
+        let is_next = usize::from(number) == running.block.len() + 1;
+        // An abort may have reserved bits.
+        let is_known = AbortCode(number_of(message)).meaning().is_some();
+        if head >> 5 == 4 && !is_next && place_of(message) == running.place && is_known {
+            return None;
+        }
+        if is_next {
+            running.block.push(bytes);
+            running.is_complete = is_last;
+        }
+        let last = if is_last { "last " } else { "" };
+        Some(self.step(format!("{last}segment {number} of the block")))
+    }
+
+    fn confirm(&mut self, message: [u8; 8]) -> Step {
+        let [_, sequence, size, ..] = message;
+        if let Some(running) = &mut self.running {
+            running.confirm(sequence);
+        }
+        self.step(format!("block confirmed up to segment {sequence}, next of {size}"))
+    }
+
+    /// The last segment is cut to its length.
+    fn end_of_blocks(&mut self, message: [u8; 8]) -> Step {
+        let [command, low, high, ..] = message;
+        let unused = usize::from(command >> 2 & 7);
+        if let Some(data) = self.running.as_mut().and_then(|running| running.data.as_mut()) {
+            data.truncate(data.len().saturating_sub(unused));
+        }
+        self.step(format!("end of blocks, checksum {:04X}h", u16::from_le_bytes([low, high])))
     }
 }
 
@@ -121,200 +262,10 @@ fn said_length(is_said: bool, message: [u8; 8]) -> String {
 }
 
 /// The value of an expedited transfer.
-fn expedited(message: [u8; 8]) -> Vec<u8> {
+fn expedited(message: [u8; 8]) -> SdoValue {
     let command = message[0];
-    let unused = if command & 1 != 0 { usize::from(command >> 2 & 3) } else { 0 };
-    message[4..8 - unused].to_vec()
-}
-
-impl Channel {
-    pub(super) fn request(&mut self, message: [u8; 8]) -> Step {
-        if let Some(segment) = self.block_segment(message, true) {
-            return segment;
-        }
-        let command = message[0];
-        match command >> 5 {
-            0 => self.segment(message, true),
-            1 => self.begin_write(message),
-            2 => self.begin("read", message, false),
-            3 => self.step(format!("next segment, toggle {}", command >> 4 & 1)),
-            4 => self.abort(message),
-            5 => match command & 3 {
-                0 => self.begin(&format!("read in blocks of {}", message[4]), message, false),
-                1 => {
-                    let step = self.step("end of blocks confirmed".to_owned());
-                    self.0 = None;
-                    step
-                }
-                2 => self.confirm(message),
-                _ => {
-                    if let Some(running) = &mut self.0 {
-                        running.is_in_block = true;
-                    }
-                    self.step("start of blocks".to_owned())
-                }
-            },
-            6 if command & 1 == 0 => {
-                let length = said_length(command & 2 != 0, message);
-                self.begin(&format!("write in blocks{length}"), message, true)
-            }
-            6 => self.end_of_blocks(message),
-            _ => self.step(format!("unknown command {command:02X}h")),
-        }
+    if command & 1 == 0 {
+        return SdoValue { bytes: message[4..].to_vec(), unsure: 3 };
     }
-
-    pub(super) fn response(&mut self, message: [u8; 8]) -> Step {
-        if let Some(segment) = self.block_segment(message, false) {
-            return segment;
-        }
-        let command = message[0];
-        match command >> 5 {
-            0 => self.segment(message, false),
-            1 => self.segment_confirmed(),
-            2 => self.read_begun(message),
-            3 => self.write_begun(message),
-            4 => self.abort(message),
-            5 => match command & 3 {
-                0 => {
-                    if let Some(running) = &mut self.0 {
-                        running.is_in_block = true;
-                    }
-                    self.at(message, format!("blocks of {}", message[4]))
-                }
-                1 => self.complete("blocks complete".to_owned()),
-                _ => self.confirm(message),
-            },
-            6 if command & 1 == 0 => {
-                let length = said_length(command & 2 != 0, message);
-                self.at(message, format!("read in blocks begun{length}"))
-            }
-            6 => {
-                let mut step = self.end_of_blocks(message);
-                if let Some(running) = &mut self.0 {
-                    step.value = running.data.take().map(|data| (data, false));
-                }
-                step
-            }
-            _ => self.step(format!("unknown command {command:02X}h")),
-        }
-    }
-
-    /// A message that belongs to what is running.
-    fn step(&self, what: String) -> Step {
-        Step { what, place: self.0.as_ref().map(|running| running.place), value: None, abort: None }
-    }
-
-    /// A message that names its place.
-    fn at(&self, message: [u8; 8], what: String) -> Step {
-        Step { what, place: Some(place_of(message)), value: None, abort: None }
-    }
-
-    fn begin(&mut self, what: &str, message: [u8; 8], is_write: bool) -> Step {
-        self.0 = Some(Running::new(place_of(message), is_write));
-        self.at(message, what.to_owned())
-    }
-
-    fn abort(&mut self, message: [u8; 8]) -> Step {
-        self.0 = None;
-        Step { abort: Some(AbortCode(number_of(message))), ..self.at(message, "abort".to_owned()) }
-    }
-
-    /// The transfer is over, and its value is known.
-    fn complete(&mut self, what: String) -> Step {
-        let mut step = self.step(what);
-        if let Some(running) = self.0.take() {
-            step.value = running.data.map(|data| (data, running.is_write));
-        }
-        step
-    }
-
-    fn begin_write(&mut self, message: [u8; 8]) -> Step {
-        let command = message[0];
-        if command & 2 == 0 {
-            let length = said_length(command & 1 != 0, message);
-            return self.begin(&format!("write in segments{length}"), message, true);
-        }
-        let mut step = self.begin("write", message, true);
-        self.0 = None;
-        step.value = Some((expedited(message), true));
-        step
-    }
-
-    fn write_begun(&mut self, message: [u8; 8]) -> Step {
-        let is_in_segments = self.0.as_ref().is_some_and(|running| running.is_write);
-        let what = if is_in_segments { "ready for segments" } else { "write confirmed" };
-        self.at(message, what.to_owned())
-    }
-
-    fn read_begun(&mut self, message: [u8; 8]) -> Step {
-        let command = message[0];
-        if command & 2 == 0 {
-            let length = said_length(command & 1 != 0, message);
-            return self.at(message, format!("read in segments begun{length}"));
-        }
-        self.0 = None;
-        let value = Some((expedited(message), false));
-        Step { value, ..self.at(message, "value".to_owned()) }
-    }
-
-    /// A segment of a transfer that is confirmed segment by segment. A repeated one counts once.
-    fn segment(&mut self, message: [u8; 8], is_write: bool) -> Step {
-        let command = message[0];
-        let (toggle, is_last) = (command >> 4 & 1, command & 1 != 0);
-        let bytes = &message[1..8 - usize::from(command >> 1 & 7)];
-        let what = format!("{}segment, toggle {toggle}", if is_last { "last " } else { "" });
-        if let Some(running) = &mut self.0
-            && running.is_write == is_write
-            && running.toggle != Some(toggle)
-        {
-            running.toggle = Some(toggle);
-            running.append(bytes);
-            running.is_complete = is_last;
-            // What is written counts when the server has confirmed it.
-            if is_last && !is_write {
-                return self.complete(what);
-            }
-        }
-        self.step(what)
-    }
-
-    fn segment_confirmed(&mut self) -> Step {
-        let is_complete = self.0.as_ref().is_some_and(|running| running.is_write && running.is_complete);
-        let what = "segment confirmed".to_owned();
-        if is_complete { self.complete(what) } else { self.step(what) }
-    }
-
-    /// A segment of a block, if this is where they come: its first byte is a number and no command.
-    fn block_segment(&mut self, message: [u8; 8], is_request: bool) -> Option<Step> {
-        let [head, bytes @ ..] = message;
-        let running = self.0.as_mut()?;
-        if !running.is_in_block || running.is_write != is_request || head == 0x80 {
-            return None;
-        }
-        let (number, is_last) = (head & 0x7F, head & 0x80 != 0);
-        if usize::from(number) == running.block.len() + 1 {
-            running.block.push(bytes);
-            running.is_complete = is_last;
-        }
-        let last = if is_last { "last " } else { "" };
-        Some(self.step(format!("{last}segment {number} of the block")))
-    }
-
-    fn confirm(&mut self, message: [u8; 8]) -> Step {
-        let [_, sequence, size, ..] = message;
-        if let Some(running) = &mut self.0 {
-            running.confirm(sequence);
-        }
-        self.step(format!("block confirmed up to segment {sequence}, next of {size}"))
-    }
-
-    /// The last segment is cut to its length.
-    fn end_of_blocks(&mut self, message: [u8; 8]) -> Step {
-        let [command, low, high, ..] = message;
-        let unused = usize::from(command >> 2 & 7);
-        if let Some(data) = self.0.as_mut().and_then(|running| running.data.as_mut()) {
-            data.truncate(data.len().saturating_sub(unused));
-        }
-        self.step(format!("end of blocks, checksum {:04X}h", u16::from_le_bytes([low, high])))
-    }
+    SdoValue::new(message[4..8 - usize::from(command >> 2 & 3)].to_vec())
 }

@@ -1,35 +1,16 @@
 //! The composite action of `action.yml`, run on a small repository of EDS files as a CI system runs it.
 
-use cargo_metadata::Message;
 use edskit_tests::{Folder, root};
 use std::env;
 use std::ffi::OsString;
 use std::fs;
-use std::io::BufReader;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::sync::LazyLock;
+use std::path::Path;
+use std::process::Command;
 
 const BAD: &str = "[2000]\nParameterName=Speed\nObjectType=0x7\nDataType=0x0006\nAccessType=RX\n";
 
-/// The command `edskit`, built with the whole workspace: then no dependency has other features and is built again.
-static EDSKIT: LazyLock<PathBuf> = LazyLock::new(|| {
-    let mut build = Command::new(env!("CARGO"))
-        .args(["build", "--quiet", "--workspace", "--bin", "edskit", "--message-format", "json"])
-        .current_dir(root())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("cargo can be started");
-    let output = BufReader::new(build.stdout.take().expect("the output is a pipe"));
-    let executables: Vec<PathBuf> = Message::parse_stream(output)
-        .filter_map(|message| match message.expect("cargo prints messages") {
-            Message::CompilerArtifact(artifact) => artifact.executable.map(PathBuf::from),
-            _ => None,
-        })
-        .collect();
-    assert!(build.wait().expect("cargo ends").success());
-    executables.into_iter().next().expect("the package has a command")
-});
+/// The command `edskit`.
+const EDSKIT: &str = env!("CARGO_BIN_EXE_edskit");
 
 /// What a run of the action left behind.
 struct Run {
@@ -46,7 +27,7 @@ fn steps() -> Vec<String> {
 
 /// Runs the steps of the action in a folder, with these inputs as `action.yml` hands them on.
 fn run(folder: &Folder, inputs: &[(&str, &str)]) -> Run {
-    let mut path = OsString::from(EDSKIT.parent().expect("a command lies in a folder"));
+    let mut path = OsString::from(Path::new(EDSKIT).parent().expect("a command lies in a folder"));
     path.push(":");
     path.push(env::var_os("PATH").unwrap_or_default());
     let mut run = Run { code: None, stdout: String::new(), stderr: String::new() };

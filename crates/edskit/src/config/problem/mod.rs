@@ -1,9 +1,13 @@
 //! What is reported of parameter files and scenarios.
 
+mod kinds;
+
 use crate::lint::human::Notice;
 use crate::printable;
+use edskit_devices::gateway::Parameter;
 use edskit_lint::{Label, Severity};
 use edskit_model::Span;
+pub(crate) use kinds::*;
 
 /// A kind of problem. Codes are never reused; docs/gateway-parameters.md has the list.
 #[derive(Debug)]
@@ -11,78 +15,22 @@ pub(crate) struct Kind {
     pub(crate) code: &'static str,
     pub(crate) name: &'static str,
     /// How bad it is, where the check does not say otherwise.
-    severity: Severity,
+    pub(crate) severity: Severity,
+    /// The lines of its documentation, each with the blank behind `///`.
+    lines: &'static [&'static str],
 }
 
-macro_rules! kinds {
-    ($($(#[doc = $doc:literal])* $kind:ident = $code:literal $name:literal $severity:ident;)*) => {
-        $(
-            $(#[doc = $doc])*
-            pub(crate) const $kind: &Kind =
-                &Kind { code: $code, name: $name, severity: Severity::$severity };
-        )*
+impl Kind {
+    /// What it is, in Markdown; the first line is a summary.
+    pub(crate) fn docs(&self) -> String {
+        let lines = self.lines.iter().map(|line| line.strip_prefix(' ').unwrap_or(line));
+        lines.collect::<Vec<_>>().join("\n")
+    }
 
-        /// Every kind, in the order of the codes.
-        #[cfg(test)]
-        const ALL: &[&Kind] = &[$($kind),*];
-    };
-}
-
-kinds! {
-    /// The file is no TOML.
-    TOML_SYNTAX = "GWC001" "toml-syntax" Error;
-    /// `device` is missing or names something else.
-    UNKNOWN_DEVICE = "GWC002" "unknown-device" Error;
-    /// A key that the file has no place for.
-    UNKNOWN_KEY = "GWC003" "unknown-key" Error;
-    /// A parameter that does not exist.
-    UNKNOWN_PARAMETER = "GWC004" "unknown-parameter" Error;
-    /// A measured value is set.
-    MEASURED_VALUE = "GWC005" "measured-value" Error;
-    /// A key stands twice, or a parameter under two of its names.
-    DUPLICATE_KEY = "GWC006" "duplicate-key" Error;
-    /// Number and name of a key belong to two parameters.
-    NAME_NUMBER_MISMATCH = "GWC007" "name-number-mismatch" Error;
-    /// A value is no number.
-    WRONG_TYPE = "GWC008" "wrong-type" Error;
-    /// A parameter cannot have this value.
-    OUT_OF_RANGE = "GWC009" "out-of-range" Error;
-    /// `[governor.signals]` is not understood.
-    INVALID_SIGNAL = "GWC010" "invalid-signal" Error;
-    /// Two have one identifier, or one that the gateway forbids (7.3, checks 1 to 8).
-    IDENTIFIER_CONFLICT = "GWC011" "identifier-conflict" Error;
-    /// Gateway and partner have one node-ID (7.3, check 9).
-    EQUAL_NODE_IDS = "GWC012" "equal-node-ids" Error;
-    /// CiA 301 restricts an identifier that the gateway accepts.
-    RESTRICTED_CAN_ID = "GWC013" "restricted-can-id" Warning;
-    /// The engine stop comes from CANopen.
-    ENGINE_STOP = "GWC014" "engine-stop-from-canopen" Error;
-    /// A switch function or sensor comes from CANopen, but from nowhere there.
-    UNASSIGNED_INPUT = "GWC015" "unassigned-input" Warning;
-    /// Two switch functions on one bit, or two sensors on one channel.
-    SHARED_INPUT = "GWC016" "shared-input" Info;
-    /// A TPDO is to carry a single bit.
-    NOT_ANALOGUE = "GWC017" "not-analogue" Warning;
-    /// Nothing is known of a parameter that a TPDO is to carry.
-    UNKNOWN_SIGNAL = "GWC018" "unknown-signal" Info;
-    /// A time is longer than the longest.
-    CAPPED_TIME = "GWC019" "capped-time" Warning;
-    /// A TPDO has data or a cycle time, but not both.
-    IDLE_TPDO = "GWC020" "idle-tpdo" Info;
-    /// The heartbeat of nobody is monitored.
-    NO_PARTNER = "GWC021" "no-partner" Warning;
-    /// What must be equal in gateway and governor is not.
-    UNITS_DISAGREE = "GWC022" "units-disagree" Error;
-    /// Gateway and governor do not talk to each other.
-    COMMUNICATION_OFF = "GWC023" "communication-off" Warning;
-    /// An identifier is written in decimal digits.
-    DECIMAL_IDENTIFIER = "GWC024" "decimal-identifier" Info;
-    /// A word of a scenario is none of those that can stand there.
-    UNKNOWN_WORD = "GWC025" "unknown-word" Error;
-    /// A step of a scenario does not say when it is.
-    NO_TIME = "GWC026" "no-time" Error;
-    /// A step of a scenario is after the end of the simulation.
-    TOO_LATE = "GWC027" "too-late" Warning;
+    /// The first line of its documentation.
+    pub(crate) fn summary(&self) -> &'static str {
+        self.lines.first().map(|line| line.trim()).unwrap_or_default()
+    }
 }
 
 /// One problem in a file.
@@ -95,11 +43,24 @@ pub(crate) struct Problem {
     /// The first is the place itself.
     pub(crate) labels: Vec<Label>,
     pub(crate) help: Option<String>,
+    /// The identifiers of whose decimal digits it speaks.
+    pub(crate) decimals: Box<[Parameter]>,
+    /// How it is called where several of its kind are told in one.
+    brief: Option<Box<str>>,
 }
 
 impl Problem {
     pub(crate) fn new(kind: &'static Kind, place: Label, message: impl Into<String>) -> Self {
-        Self { kind, severity: kind.severity, message: message.into(), labels: vec![place], help: None }
+        let (severity, message) = (kind.severity, message.into());
+        Self {
+            kind,
+            severity,
+            message,
+            labels: vec![place],
+            help: None,
+            decimals: Box::default(),
+            brief: None,
+        }
     }
 
     /// A problem at a place that needs no words.
@@ -135,6 +96,22 @@ impl Problem {
         self
     }
 
+    /// It speaks of the decimal digits of these identifiers.
+    pub(crate) fn decimals(mut self, parameters: impl IntoIterator<Item = Parameter>) -> Self {
+        self.decimals = parameters.into_iter().collect();
+        self
+    }
+
+    /// This one can be told together with others of its kind, and is called so there.
+    pub(crate) fn brief(mut self, text: impl Into<String>) -> Self {
+        self.brief = Some(text.into().into_boxed_str());
+        self
+    }
+
+    pub(crate) fn can_be_merged(&self) -> bool {
+        self.brief.is_some()
+    }
+
     /// The same with nothing that would steer a terminal; texts quote the file.
     pub(crate) fn printable(mut self) -> Self {
         let texts = self.labels.iter_mut().map(|label| &mut label.text);
@@ -147,6 +124,35 @@ impl Problem {
     pub(crate) fn span(&self) -> Span {
         self.labels[0].span
     }
+}
+
+/// How many of those that are told in one are named, and how many are shown with their places.
+const NAMED: usize = 12;
+const SHOWN: usize = 3;
+
+/// Puts those that can be told together into one, at the place of the first. `message` says how many of what they are, and
+/// `help` what to do.
+pub(crate) fn merged(problems: Vec<Problem>, message: impl Fn(usize) -> String, help: &str) -> Vec<Problem> {
+    let (together, mut others): (Vec<Problem>, Vec<Problem>) =
+        problems.into_iter().partition(|problem| problem.brief.is_some());
+    let [first, rest @ ..] = &together[..] else { return others };
+    if rest.is_empty() {
+        others.extend(together);
+        return others;
+    }
+    let count = together.len();
+    let names = together.iter().take(NAMED).filter_map(|problem| problem.brief.as_deref());
+    let mut names: Vec<String> = names.map(str::to_owned).collect();
+    if count > NAMED {
+        names.push(format!("and {} more", count - NAMED));
+    }
+    let message = format!("{}: {}", message(count), names.join(", "));
+    let places =
+        rest.iter().take(SHOWN - 1).map(|problem| Label { span: problem.span(), text: String::new() });
+    let place = Label { span: first.span(), text: "the first one".to_owned() };
+    let problem = Problem::new(first.kind, place, message).severity(first.severity);
+    others.push(problem.labels(places).help(help));
+    others
 }
 
 impl<'a> From<&'a Problem> for Notice<'a> {
@@ -167,7 +173,7 @@ mod tests {
 
     #[test]
     fn the_page_lists_every_kind() {
-        let page = include_str!("../../../../docs/gateway-parameters.md");
+        let page = include_str!("../../../../../docs/gateway-parameters.md");
         let rows: Vec<&str> = page.lines().filter(|line| line.starts_with("| GWC")).collect();
         assert_eq!(rows.len(), ALL.len());
         for (row, kind) in rows.iter().zip(ALL) {
