@@ -130,13 +130,13 @@ fn limits() -> Vec<Defect> {
         })
         .by_label(),
         Defect::new("VAL004", "a default above the upper limit of its range type", |base| {
-            let is_ranged = |section: &Section| {
-                is_own_value(section) && section.is_type(6) && section.value("HighLimit").is_empty()
-            };
-            let sections = base.sections_where(is_ranged);
+            let sections = base.sections_where(|section| is_own_value(section) && section.is_type(6));
             let ranged = sections.into_iter().filter_map(|section| {
                 let mutant = Mutant::of(base).set(section.entry("DefaultValue")?, "200");
                 let mutant = mutant.set_too(section.entry("DataType")?, "0x00A0");
+                // Limits of its own would come first.
+                let own = ["LowLimit", "HighLimit"].into_iter().filter_map(|key| section.entry(key));
+                let mutant = own.fold(mutant, |mutant, limit| mutant.delete(limit.line));
                 Some(RANGE.iter().fold(mutant, |mutant, line| mutant.insert_too(base.lines.len(), *line)))
             });
             ranged.collect()

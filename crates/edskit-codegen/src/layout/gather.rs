@@ -99,11 +99,13 @@ fn described(
         lost(span, format!("[{}] has no access type that can be read, and becomes ro", description.name()));
         AccessType::Ro
     });
-    let value = entry.value_field().map(|field| field.entry);
-    let default = value.and_then(|value| {
+    let field = entry.value_field();
+    let value = field.map(|field| field.entry);
+    let default = field.and_then(|field| {
+        let value = field.entry;
         let bytes = match data_type {
             DataType::Domain => Err("the application has the data of a DOMAIN".to_owned()),
-            _ => Bytes::of_entry(value, data_type),
+            _ => Bytes::of_field(field, data_type),
         };
         let reason = match bytes {
             Ok(bytes) => return Some(bytes),

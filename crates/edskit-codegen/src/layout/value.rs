@@ -1,7 +1,7 @@
 //! Values as the bytes that a device has in its memory.
 
 use super::fixed_size;
-use edskit_model::{Entry, EvaluationError, Value, octets};
+use edskit_model::{EvaluationError, Field, Value, octets};
 use edskit_types::DataType;
 
 /// The bytes of a value, low byte first.
@@ -17,15 +17,14 @@ impl Bytes {
         Self { bytes: bytes.into(), is_node_relative: false }
     }
 
-    /// The value of an entry of the file. A DOMAIN has none in a dictionary.
-    pub(super) fn of_entry(entry: Entry<'_>, data_type: DataType) -> Result<Self, String> {
-        let field = entry.value(Some(data_type));
-        let value = match (field.known(), field.value) {
-            (Some(value), _) => value,
-            (None, Err(error)) => return Err(error.to_string()),
-            (None, Ok(value)) => value,
-        };
-        Self::of(value, data_type, &entry.text())
+    /// The value of an entry of the file, which was read by this type. A DOMAIN has none in a dictionary.
+    pub(super) fn of_field(field: Field<'_, Value<'_>>, data_type: DataType) -> Result<Self, String> {
+        let text = field.text();
+        match (field.known(), field.value) {
+            (Some(value), _) => Self::of(value, data_type, &text),
+            (None, Err(error)) => Err(error.to_string()),
+            (None, Ok(value)) => Self::of(value, data_type, &text),
+        }
     }
 
     /// The value that a text stands for.

@@ -54,6 +54,15 @@ impl Entry<'_> {
                 return assumed(format!("0x{meant:04X}"), "hexadecimal numbers begin with `0x`");
             }
         }
+        let name = self.key().name;
+        if let SectionKind::SubObject(index, sub_index) = section.kind()
+            && (index.is_rpdo_mapping() || index.is_tpdo_mapping())
+            && (1..=64).contains(&sub_index.0)
+            && matches!(name, KeyName::DefaultValue | KeyName::ParameterValue)
+            && let Some(meant) = section.sheet().mapping_without_prefix(self.raw())
+        {
+            return assumed(format!("0x{:08X}", meant.0), "hexadecimal numbers begin with `0x`");
+        }
         let Slip { text, reason, .. } = self.certain_slip(section)?;
         assumed(text, reason)
     }

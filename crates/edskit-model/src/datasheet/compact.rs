@@ -4,7 +4,7 @@ use super::{Datasheet, Description, Entry, Field, Object};
 use crate::key::KeyName;
 use crate::section::SectionKind;
 use crate::value::{Number, Value};
-use edskit_types::{AccessType, DataType, Index, PdoDirection, SubIndex};
+use edskit_types::{AccessType, DataType, Index, MappingEntry, PdoDirection, SubIndex};
 use std::borrow::Cow;
 
 /// What CiA 306 v1.3, 4.6.3.4.2 calls sub-index 00h of a compact object.
@@ -103,12 +103,32 @@ impl<'a> DictionaryEntry<'a> {
                 .listed(object, SectionKind::CompactValues)
                 .and_then(|entry| entry.value(object.standard_type()).known()),
         };
-        configured.or_else(|| self.default_value())
+        let value = configured.or_else(|| self.default_value());
+        self.mapped_without_prefix().or(value)
+    }
+
+    /// The mapping entry that was meant where its `0x` was forgotten: `60410010`, of which only the hexadecimal reading names
+    /// an entry of the dictionary.
+    fn mapped_without_prefix(self) -> Option<Value<'a>> {
+        let is_mapping = self.index.is_rpdo_mapping() || self.index.is_tpdo_mapping();
+        if !is_mapping || !(1..=64).contains(&self.sub_index.0) {
+            return None;
+        }
+        let entry = self.written()?.entry;
+        let meant = entry.sheet.mapping_without_prefix(entry.raw())?;
+        Number::parse(format!("0x{:08X}", meant.0).as_bytes()).ok().map(Value::Integer)
     }
 
     /// The value that counts, with its place: ParameterValue or the entry of `[xxxxValue]` where there is one, readable
     /// or not, else DefaultValue; CompactSubObj for sub-index 00h of a compact object.
     pub fn value_field(self) -> Option<Field<'a, Value<'a>>> {
+        let field = self.written()?;
+        let meant = self.mapped_without_prefix();
+        Some(Field { value: meant.map_or(field.value, Ok), ..field })
+    }
+
+    /// The value that counts, as it is written.
+    fn written(self) -> Option<Field<'a, Value<'a>>> {
         match self.origin {
             Origin::Described(description) => description.value(),
             // How many errors there are, no entry of the file can say.
@@ -212,6 +232,20 @@ impl Datasheet {
         self.object(index)?.dictionary_entry(sub_index)
     }
 
+    /// The mapping entry whose `0x` was forgotten: eight decimal digits that name no entry of the dictionary, unless they are
+    /// read as hexadecimal.
+    pub(crate) fn mapping_without_prefix(&self, text: &[u8]) -> Option<MappingEntry> {
+        if text.len() != 8 || !text.iter().all(u8::is_ascii_digit) {
+            return None;
+        }
+        let text = core::str::from_utf8(text).ok()?;
+        let is_there =
+            |entry: &MappingEntry| self.dictionary_entry(entry.index(), entry.sub_index()).is_some();
+        let written = MappingEntry(text.parse().ok()?);
+        let meant = MappingEntry(u32::from_str_radix(text, 16).ok()?);
+        (!is_there(&written) && is_there(&meant)).then_some(meant)
+    }
+
     /// The PDOs that exist only through CompactPDO and the number of PDOs in `[DeviceInfo]`, in ascending order
     /// (CiA 306 v1.3, 4.6.3.4.1). They take the lowest communication indices that no object describes.
     pub fn implicit_pdos(&self, direction: PdoDirection) -> impl Iterator<Item = ImplicitPdo> + '_ {
@@ -298,6 +332,20 @@ mod tests {
         assert_eq!(sheet.dictionary_entry(Index(0x1000), SubIndex(0)).unwrap().name(), "Type");
         assert!(sheet.dictionary_entry(Index(0x1000), SubIndex(1)).is_none());
         assert!(sheet.dictionary_entry(Index(0x1001), SubIndex(0)).is_none());
+    }
+
+    #[test]
+    fn a_mapping_may_lack_its_prefix() {
+        let text = b"[1A00]\nObjectType=9\n[1A00sub1]\nDataType=7\nDefaultValue=60410010\n[1A00sub2]\nDataType=7\nDefaultValue=60420010\n[6041]\nDataType=6\n";
+        let sheet = Datasheet::parse(text);
+        let value = |sub_index| {
+            let entry = sheet.dictionary_entry(Index(0x1A00), SubIndex(sub_index)).unwrap();
+            let value = entry.value_field().unwrap().known().unwrap();
+            assert_eq!(entry.value(), Some(value));
+            value.integer(DataType::Unsigned32, None)
+        };
+        assert_eq!((value(1), value(2)), (Ok(0x6041_0010), Ok(60_420_010)), "6042h is not described");
+        assert_eq!(sheet.assumed().len(), 1);
     }
 
     #[test]

@@ -191,7 +191,7 @@ pub struct Field<'a, T> {
     /// The meaning by CiA 306, or the reason why the text has none.
     pub value: Result<T, ValueError>,
     /// What the value was read by, where it is a typed one.
-    data_type: Option<DataType>,
+    pub(super) data_type: Option<DataType>,
 }
 
 impl<'a, T> Field<'a, T> {

@@ -9,7 +9,7 @@
 //! | a comment or a remark behind the value | `0x0007 ; UNSIGNED32`, `ro # fixed`, `5 (five)` | `0x0007`, `ro`, `5` |
 //! | a mark or a quote around it | `0x10;`, `5,`, `"rw"` | `0x10`, `5`, `rw` |
 //! | a prefix twice, or one of another language | `0x0x1A`, `$1A`, `16#1A`, `&H1A`, `1Ah` | `0x1A` |
-//! | no prefix | `1A00` | `0x1A00` |
+//! | no prefix; in lists of indices and mappings of decimal digits too | `1A00`, `1=2000` | `0x1A00`, `1=0x2000` |
 //! | blanks and separators inside | `0x1234 5678`, `1_000`, `10 000` | `0x12345678`, `1000`, `10000` |
 //! | letters that look like digits | `Ox1O` | `0x10` |
 //! | a formula in another spelling | `NODEID + 180h`, `{NodeID}+0x180` | `$NODEID+0x180` |

@@ -48,8 +48,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let Some(info) = context.sheet.device_info() else { return };
     let flags: Vec<Field<'_, bool>> = Bitrate::ALL.iter().filter_map(|&rate| info.supports(rate)).collect();
     // A flag that cannot be read may mean yes, and so may a rate that CiA 306 does not know.
-    let is_open = flags.iter().any(|flag| flag.value != Ok(false));
-    if is_open || unknown_keys(*info).any(|entry| entry.flag().value != Ok(false)) {
+    let is_open = flags.iter().any(|flag| flag.known() != Some(false));
+    if is_open || unknown_keys(*info).any(|entry| entry.flag().known() != Some(false)) {
         return;
     }
     let message = if flags.is_empty() {

@@ -3,7 +3,7 @@ use super::words::with_article;
 use crate::rule::rule;
 use crate::wording::few;
 use crate::{Context, Edit, Report, Variable};
-use edskit_model::{Entry, KeyName, Number};
+use edskit_model::{Entry, KeyName};
 use edskit_types::ObjectCode;
 
 rule! {
@@ -131,7 +131,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
 fn says_something(entry: Entry<'_>) -> bool {
     match entry.key().name {
         KeyName::AccessType | KeyName::DataType | KeyName::DefaultValue => !entry.is_empty(),
-        _ => Number::parse(entry.raw()).is_ok_and(|number| number.value() != 0),
+        _ => entry.number().known().is_some_and(|number| number.value() != 0),
     }
 }
 

@@ -56,7 +56,7 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    let [low, high] = variable.range;
+    let [low, high] = variable.range();
     let (low, high) = (variable.low_limit.or(low), variable.high_limit.or(high));
     if low.is_none() && high.is_none() {
         return;
