@@ -674,6 +674,7 @@ fn cob_ids_that_cannot_be_used_are_told() {
     }
     let implicit = device("[DeviceInfo]\nCompactPDO=0x13\nNrOfRXPDO=5\nNrOfTXPDO=5\n");
     assert_eq!((implicit.cob_ids.len(), implicit.cob_id_problems(None).len()), (10, 0));
+}
 
 #[test]
 fn device_info_says_what_a_node_may() {
