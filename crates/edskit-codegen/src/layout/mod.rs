@@ -178,8 +178,8 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
     }
     let Images { constants, defaults, .. } = images;
     let mappings = mappings::read(&items, sheet.document());
-    let settings = settings::read(sheet, &entries, &mappings, &mut notes);
-    notes.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
+    let settings = settings::read(sheet, &entries, &mappings, &mut assumptions);
+    assumptions.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
     Ok(Layout {
         counts: Counts::of(&entries),
         settings,

@@ -2,19 +2,20 @@
 
 use edskit_codegen::{Layout, LoadedDictionary, Problem};
 use edskit_lint::Severity;
-use edskit_runtime::{Instant, NoApplication, NoStorage, Node, Settings};
-use edskit_types::{AbortCode, Index, SubIndex};
+use edskit_runtime::{Entry, Instant, NoApplication, NoStorage, Node, Settings};
+use edskit_types::{AbortCode, CobId, IdentifierRules, Index, SubIndex};
 
-/// A warning for each value, at the place of its entry. What is wrong with mappings the layout says.
+/// A warning for each value, at the place of its entry. What is wrong with mappings and with the identifiers in COB-IDs the
+/// layout says itself.
 pub(super) fn problems(layout: &Layout, settings: Settings) -> Vec<Problem> {
     let mut node = Node::new(LoadedDictionary::new(layout), settings, NoStorage);
     node.poll(Instant(0), &mut NoApplication);
     let mut refused = Vec::new();
     node.refused(&mut NoApplication, &mut |entry, code| refused.push((*entry, code)));
     let objects = node.objects();
-    let of_values =
-        refused.iter().filter(|(entry, _)| !(entry.index.is_rpdo_mapping() || entry.index.is_tpdo_mapping()));
-    let problem = |(entry, code): &(edskit_runtime::Entry, AbortCode)| {
+    let others =
+        refused.iter().filter(|(entry, _)| !is_said(entry, objects.value(entry.index, entry.sub_index.0)));
+    let problem = |(entry, code): &(Entry, AbortCode)| {
         let position = objects.table().find(entry.index, entry.sub_index).ok()?;
         let source = layout.sources.get(usize::from(position.0))?;
         let bytes = objects.bytes(position).iter().rev();
@@ -34,7 +35,20 @@ pub(super) fn problems(layout: &Layout, settings: Settings) -> Vec<Problem> {
             help: None,
         })
     };
-    of_values.filter_map(problem).collect()
+    others.filter_map(problem).collect()
+}
+
+/// Whether the layout says what is wrong with a value.
+fn is_said(entry: &Entry, value: Option<u32>) -> bool {
+    let is_mapping = entry.index.is_rpdo_mapping() || entry.index.is_tpdo_mapping();
+    let is_cob_id = match (entry.index.0, entry.sub_index.0) {
+        (0x1005 | 0x1012 | 0x1014, 0) => true,
+        (0x1201..=0x127F, sub_index) => (1..=2).contains(&sub_index),
+        (0x1400..=0x15FF | 0x1800..=0x19FF, sub_index) => sub_index == 1,
+        _ => false,
+    };
+    let cob_id = CobId(value.unwrap_or_default() & !CobId::BIT_31);
+    is_mapping || (is_cob_id && IdentifierRules::CIA_301.fault(cob_id).is_some())
 }
 
 /// What the node does without.
@@ -68,12 +82,15 @@ mod tests {
         };
         let record = |section: &str| format!("[{section}]\nParameterName=x\nObjectType=9\nSubNumber=2\n");
         let eds = [
+            record("1016"),
             record("1201"),
             record("1400"),
             record("1801"),
-            object("1005", 7, "0x701"),
+            object("1005", 7, "0x40000080"),
+            object("1012", 7, "0x40000100"),
             object("1014", 7, "$NODEID+0x80"),
             object("1019", 5, "1"),
+            object("1016sub1", 7, "0xFF140064"),
             object("1201sub1", 7, "0x20000640"),
             object("1400sub1", 7, "0"),
             object("1400sub2", 5, "255"),
