@@ -65,7 +65,7 @@ impl<'a> Context<'a> {
             self.check_parameter(entry, data)?;
         }
         self.app.before_write(&mut self.objects, entry, data)?;
-        if is_command(entry) {
+        if is_of_services && is_command(entry) {
             return self.do_command(entry.index, entry.sub_index);
         }
         let is_event = self.app.write_is_event(&self.objects, entry) && self.objects.bytes(position) != data;

@@ -283,7 +283,7 @@ fn a_side_file_names_entries_of_some_configurations_and_units() {
     let optional: Vec<bool> = layout.entries.iter().map(|entry| entry.flags.has(Flags::OPTIONAL)).collect();
     assert_eq!(optional, [false, true]);
     assert!(layout.sources.iter().all(|source| source.unit.as_deref() == Some("mm")));
-    assert_eq!(messages(&layout.assumptions), ["a.toml:1:21: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.notes), ["a.toml:1:21: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -299,7 +299,7 @@ fn a_side_file_names_what_the_device_changes() {
     assert_eq!(variable, [true, true, false, true, false], "a domain lies nowhere");
     assert_eq!(layout.defaults, [&b"\x04\0Pump"[..], &[2], &[2, 0, 0, 0]].concat());
     assert_eq!(entry(&layout, 0x1018, 2).flags, Flags::READ.and(Flags::VARIABLE), "it is not stored");
-    assert_eq!(messages(&layout.assumptions), ["a.toml:1:53: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.notes), ["a.toml:1:53: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -321,7 +321,7 @@ fn a_side_file_names_what_rpdos_write() {
     assert_eq!(of(0x2001), received);
     assert_eq!(of(0x2002), Flags::READ, "no PDO carries a domain");
     assert_eq!(of(0x2003), Flags::READ.and(Flags::VARIABLE));
-    assert_eq!(messages(&layout.assumptions), ["a.toml:1:22: GEN the dictionary has no such entry"]);
+    assert_eq!(messages(&layout.notes), ["a.toml:1:22: GEN the dictionary has no such entry"]);
 }
 
 #[test]
@@ -591,7 +591,7 @@ fn the_error_history_begins_empty_and_can_be_cleared_in_every_form() {
             assert_eq!(value(&layout, 0x1001, 0), (0, false));
             assert!(entry(&layout, 0x1003, 0).flags.has(Flags::READ.and(Flags::WRITE).and(Flags::VARIABLE)));
             assert!(!entry(&layout, 0x1003, 1).flags.has(Flags::WRITE));
-            assert_eq!(layout.notes.len(), notes + 1, "{:?}", messages(&layout.assumptions));
+            assert_eq!(layout.notes.len(), notes + 1, "{:?}", messages(&layout.notes));
         }
     }
 }
