@@ -23,25 +23,26 @@ impl Served {
         let over = Arc::clone(&is_over);
         let thread = thread::spawn(move || {
             let bus = VirtualBus::new(Bitrate::Kbit1000);
-            let mut server = VirtualServer::start(&bus, ([127, 0, 0, 1], 0).into()).unwrap();
-            sender.send(server.address().port()).unwrap();
+            let mut server =
+                VirtualServer::start(&bus, ([127, 0, 0, 1], 0).into()).expect("there are free ports");
+            sender.send(server.address().port()).expect("the test waits for it");
             let mut device = bus.attach();
             let mut heartbeat = Instant(1_000);
             while !over.load(Ordering::Relaxed) {
-                while let Some(received) = device.receive().unwrap() {
-                    if received.frame.can_id() == CanId::standard(0x60A).unwrap() {
-                        device.send(&frame(0x58A, received.frame.data())).unwrap();
+                while let Some(received) = device.receive().expect("a virtual bus stays") {
+                    if received.frame.can_id() == frame(0x60A, &[]).can_id() {
+                        device.send(&frame(0x58A, received.frame.data())).expect("the bus has room");
                     }
                 }
                 if bus.now() >= heartbeat {
-                    device.send(&frame(0x70A, &[5])).unwrap();
+                    device.send(&frame(0x70A, &[5])).expect("the bus has room");
                     heartbeat = Instant(heartbeat.0 + 1_000);
                 }
                 server.wait(heartbeat);
             }
             bus.now()
         });
-        Self { port: port.recv().unwrap(), is_over, thread: Some(thread) }
+        Self { port: port.recv().expect("the server starts"), is_over, thread: Some(thread) }
     }
 
     fn tool(&self) -> Tool {
@@ -51,13 +52,13 @@ impl Served {
     }
 
     fn client(&self) -> VirtualClient {
-        VirtualClient::connect("127.0.0.1", self.port).unwrap()
+        VirtualClient::connect("127.0.0.1", self.port).expect("the server listens")
     }
 
     /// Ends it; says which time it was then.
     fn end(mut self) -> Instant {
         self.is_over.store(true, Ordering::Relaxed);
-        self.thread.take().unwrap().join().unwrap()
+        self.thread.take().expect("it runs").join().expect("it does not panic")
     }
 }
 

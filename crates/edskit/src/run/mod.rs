@@ -5,9 +5,9 @@ pub(crate) mod gateway;
 mod virtual_bus;
 
 use crate::cli::RunArguments;
-use crate::live::{Reachable, TraceFile, addresses, open_or_hint, start_hub};
+use crate::live::{Reachable, TraceFile, addresses, start_hub};
 use crate::{Exit, Streams};
-use edskit_host::{Address, Bus, Hub, Trace};
+use edskit_host::{Address, Bus, Hub, Trace, open};
 use edskit_types::Bitrate;
 use std::io;
 use virtual_bus::{USUAL_ADDRESS, VirtualConnection};
@@ -62,7 +62,7 @@ fn connect(
         let hub = start_hub(arguments.listen)?;
         (Box::new(hub.attach()), Some(hub))
     } else {
-        (open_or_hint(&arguments.bus)?, None)
+        (open(&arguments.bus).map_err(|error| error.to_string())?, None)
     };
     let reachable = hub.as_ref().map(addresses).unwrap_or_default();
     Ok(match record {
