@@ -50,8 +50,7 @@ pub fn edskit_bytes(arguments: &[&str]) -> Vec<u8> {
     let mut streams = Streams::of_buffers(Vec::new(), Box::new(stdout.clone()), Box::new(io::sink()));
     let arguments = std::iter::once("edskit").chain(arguments.iter().copied()).map(OsString::from);
     edskit::run(arguments, &mut streams);
-    let bytes = stdout.0.lock().expect("no writer panics").clone();
-    bytes
+    stdout.0.lock().expect("no writer panics").clone()
 }
 
 /// A stream that can still be read when the command is done with it.
