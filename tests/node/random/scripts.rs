@@ -209,12 +209,12 @@ impl Writer<'_> {
             let (index, sub_index, bytes) = self.random.choice(PARAMETERS).unwrap_or((0x1017, 0, 2));
             let value = match (index, sub_index) {
                 (0x1005, _) => self.random.choice([0x80, 0x4000_0080, 0x90]).unwrap_or(0x80),
-                (0x1014, _) => 0x80 + u32::from(own) | self.bit_31(),
+                (0x1014, _) => (0x80 + u32::from(own)) | self.bit_31(),
                 (0x1016, _) => u32::from(self.random.u8(1..5)) << 16 | self.random.u32(0..40),
                 (0x1019, _) => self.random.choice([0, 2, 10, 240, 250]).unwrap_or(0),
                 (0x1029, _) => self.random.u32(0..4),
                 (0x1006, _) => self.random.choice([0, 1000, 20_000]).unwrap_or(0),
-                (0x1201, _) => 0x580 + 0x80 * u32::from(2 - sub_index) + 100 | self.bit_31(),
+                (0x1201, _) => (0x580 + 0x80 * u32::from(2 - sub_index) + 100) | self.bit_31(),
                 (0x1400..=0x1BFF, 1) => {
                     let (base, number) =
                         if index < 0x1800 { (0x200, index - 0x1400) } else { (0x180, index - 0x1800) };
