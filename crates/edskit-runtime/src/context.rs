@@ -9,7 +9,7 @@ use crate::queue::Queue;
 use crate::sdo::SdoServer;
 use crate::sync::Sync;
 use crate::{Application, Frame, Instant, Objects, Settings, Storage};
-use edskit_types::{AbortCode, CanId, CobId, IdentifierRules, Index, NmtState, NodeId};
+use edskit_types::{AbortCode, CanId, CobId, Index, NmtState, NodeId};
 
 /// The state of a node besides its dictionary.
 #[derive(Debug)]
@@ -151,10 +151,10 @@ impl Context<'_> {
         matches!(self.core.state, NmtState::PreOperational | NmtState::Operational)
     }
 
-    /// What holds for every COB-ID: 29-bit identifiers are not supported, and what CiA 301 restricts
-    /// cannot be used by a valid one.
+    /// What holds for every COB-ID: 29-bit identifiers are not supported, and what CiA 301, or the device in its place,
+    /// restricts cannot be used by a valid one.
     pub(crate) fn check_cob_id(&self, cob_id: CobId) -> Result<(), AbortCode> {
-        if IdentifierRules::CIA_301.fault(cob_id).is_some() {
+        if self.core.settings.identifiers.fault(cob_id).is_some() {
             return Err(AbortCode::INVALID_VALUE);
         }
         Ok(())

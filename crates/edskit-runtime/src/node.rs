@@ -11,7 +11,7 @@ use crate::sync::Sync;
 use crate::{
     Application, Entry, Error, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
 };
-use edskit_types::{AbortCode, BitRates, NmtState, NodeId};
+use edskit_types::{AbortCode, BitRates, IdentifierRules, NmtState, NodeId};
 
 /// What a node is told besides its dictionary. A generated dictionary has the constant `SETTINGS`, which says what
 /// `[DeviceInfo]` of its EDS does.
@@ -29,10 +29,14 @@ pub struct Settings {
     pub has_block_transfer: bool,
     /// Mapped values have a multiple of so many bits (`Granularity` of the EDS); 0 and 1 allow any length.
     pub granularity: u8,
+    /// Which identifiers the services may have (CiA 301, 7.3.5). A device whose manual allows others has rules of its own;
+    /// what they do not allow has no effect, wherever it comes from.
+    pub identifiers: &'static IdentifierRules<'static>,
 }
 
 impl Settings {
-    /// Node-ID 1, no self-start, every bit rate, LSS and block transfer, mapping by the bit.
+    /// Node-ID 1, no self-start, every bit rate, LSS and block transfer, mapping by the bit, the identifiers of
+    /// CiA 301.
     pub const DEFAULT: Self = Self {
         node_id: Some(NodeId::MIN),
         starts_by_itself: false,
@@ -40,6 +44,7 @@ impl Settings {
         has_lss: true,
         has_block_transfer: true,
         granularity: 1,
+        identifiers: &IdentifierRules::CIA_301,
     };
 }
 

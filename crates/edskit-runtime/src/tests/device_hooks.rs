@@ -144,3 +144,19 @@ fn lss_and_block_transfer_can_be_left_out() {
         assert_eq!(bench.sdo(request), Err(AbortCode::UNKNOWN_COMMAND.0));
     }
 }
+
+/// Rules without restricted identifiers.
+static NOTHING_RESTRICTED: edskit_types::IdentifierRules<'static> =
+    edskit_types::IdentifierRules { restricted: &[], reserved: &[], rpdos_may_share: false };
+
+#[test]
+fn a_device_has_identifiers_that_its_manual_allows() {
+    let own = Settings { identifiers: &NOTHING_RESTRICTED, ..settings() };
+    for (settings, answer) in [(settings(), Err(0x0609_0030)), (own, Ok(()))] {
+        let mut bench =
+            Bench::off(plain().pdo(0x1800, 0x185, 255, &[]).build(), settings, Box::new(NoStorage));
+        bench.poll();
+        bench.write(0x1800, 1, &0x8000_0003_u32.to_le_bytes()).unwrap();
+        assert_eq!(bench.write(0x1800, 1, &3_u32.to_le_bytes()), answer);
+    }
+}

@@ -11,6 +11,7 @@ mod reactions;
 mod side;
 mod view;
 
+use super::check::RULES;
 use super::configuration::{Configuration, OutOfRange};
 use super::dictionary::canopen_gateway::Dictionary;
 use super::eeprom::EepromErrors;
@@ -85,6 +86,8 @@ fn node(configuration: &Configuration) -> Node<Unmonitored, NoStorage> {
         // GW-EDS-05, GW-SDO-01
         has_lss: false,
         has_block_transfer: false,
+        // What the gateway accepts at its initialisation, its node uses: 003h too (7.1.2.2).
+        identifiers: &RULES,
         ..Settings::default()
     };
     Node::new(Unmonitored(Dictionary::new()), settings, NoStorage)
