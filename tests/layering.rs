@@ -19,7 +19,7 @@ use Libraries::{Any, Only};
 const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-types", &[], Only(&[])),
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
-    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["memchr", "serde", "toml"])),
+    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde", "toml"])),
     ("edskit-devices", &["edskit-types", "edskit-runtime", "edskit-codegen"], Only(&["heapless"])),
     ("edskit-host", &["edskit-types", "edskit-runtime"], Any),
     ("edskit-runtime", &["edskit-types"], Only(&["embedded-can"])),

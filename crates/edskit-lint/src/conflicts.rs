@@ -30,6 +30,9 @@ impl Conflicts {
     /// Finds them.
     pub(crate) fn of(document: &Document) -> Self {
         let mut found = Self::default();
+        if !document.has_line(LineKind::Other) {
+            return found;
+        }
         // The markers of the conflict that is open: where it starts, its base, its separator.
         let mut open: Option<(usize, Option<usize>, Option<usize>)> = None;
         for (number, line) in document.lines().iter().enumerate() {

@@ -150,6 +150,8 @@ pub struct Variable<'a> {
     pub data_type: Option<Field<'a, u16>>,
     /// The data type of CiA 301: the one that is named, or the one behind a type that the file defines.
     pub standard_type: Option<DataType>,
+    /// Whether the data type is none of CiA 301, so that only the file can define it.
+    pub(crate) has_own_type: bool,
     /// The access as written.
     pub access_type: Option<Field<'a, AccessType>>,
     /// The mapping right as written.
@@ -200,9 +202,11 @@ impl<'a> Variable<'a> {
         let object_type = object_type.map(Entry::object_code).filter(is_filled);
         let code = object_type.map_or(Some(ObjectCode::Var), Field::known);
         let data_type = data_type.map(Entry::unsigned::<u16>).filter(is_filled);
+        let mut has_own_type = false;
         let standard_type = match data_type {
             Some(field) => field.known().and_then(|index| {
                 let known = DataType::from_index(Index(index));
+                has_own_type = known.is_none();
                 known.or_else(|| Some(description.sheet().resolve_type(Index(index))?.data_type))
             }),
             None => (code == Some(ObjectCode::Domain)).then_some(DataType::Domain),
@@ -217,6 +221,7 @@ impl<'a> Variable<'a> {
             code,
             data_type,
             standard_type,
+            has_own_type,
             access_type: access_type.map(Entry::access_type).filter(is_filled),
             pdo_mapping: pdo_mapping.map(Entry::flag).filter(is_filled),
             srdo_mapping: srdo_mapping.map(Entry::flag).filter(is_filled),
@@ -232,14 +237,10 @@ impl<'a> Variable<'a> {
     /// The limits of the range type that it has, read by the data type.
     #[inline]
     pub fn range(&self) -> [Option<Field<'a, Value<'a>>>; 2] {
-        let is_standard = |index: u16| DataType::from_index(Index(index)).is_some();
-        match self.data_type {
-            Some(field) if !field.value.is_ok_and(is_standard) => self
-                .description
-                .resolved_type()
-                .map_or([None, None], |resolved| [resolved.low, resolved.high]),
-            _ => [None, None],
+        if !self.has_own_type {
+            return [None, None];
         }
+        self.description.resolved_type().map_or([None, None], |resolved| [resolved.low, resolved.high])
     }
 
     /// What profiles prescribe for the variable.

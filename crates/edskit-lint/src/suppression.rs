@@ -100,12 +100,11 @@ struct Comments {
 
 fn read(context: &Context<'_>) -> Comments {
     let source = context.source();
-    // Almost no file has one, and this is faster than a look at every line.
-    if !memchr::memchr_iter(b';', source).any(|place| is_meant(&source[place + 1..])) {
-        return Comments::default();
+    let mut comments = Comments::default();
+    if !context.document().has_line(LineKind::Comment) {
+        return comments;
     }
     let lines = context.document().lines();
-    let mut comments = Comments::default();
     for (number, line) in lines.iter().enumerate().filter(|(_, line)| line.kind() == LineKind::Comment) {
         let Some(order) = after_mark(source, line) else { continue };
         let Some((keyword, selectors)) = parse(source, order) else {
@@ -137,18 +136,22 @@ enum Keyword {
 fn is_meant(comment: &[u8]) -> bool {
     let text = comment.trim_ascii_start();
     let Some((name, rest)) = text.split_at_checked(MARK.len() - 1) else { return false };
+    if !name.eq_ignore_ascii_case(&MARK[..MARK.len() - 1]) {
+        return false;
+    }
     let rest = rest.trim_ascii_start();
     let begins = |word: &[u8]| rest.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
-    name.eq_ignore_ascii_case(&MARK[..MARK.len() - 1]) && (begins(b":") || begins(b"allow"))
+    begins(b":") || begins(b"allow")
 }
 
 /// What a comment that is meant for this program says behind the mark; nothing where the mark is not whole.
 fn after_mark(source: &[u8], line: &Line) -> Option<Span> {
-    let span = line.trimmed(source);
-    let text = span.slice(source).get(1..)?;
-    if span.slice(source)[0] != b';' || !is_meant(text) {
+    let comment = line.span().slice(source).trim_ascii_start().strip_prefix(b";")?;
+    if !is_meant(comment) {
         return None;
     }
+    let span = line.trimmed(source);
+    let text = &span.slice(source)[1..];
     let lead = text.len() - text.trim_ascii_start().len();
     let start = 1 + lead + MARK.len();
     let has_mark = text[lead..].get(..MARK.len()).is_some_and(|mark| mark.eq_ignore_ascii_case(MARK));

@@ -376,6 +376,13 @@ impl KeyName {
         ROWS[self as usize].1
     }
 
+    /// Whether the spelling is the whole key, without a number.
+    #[inline]
+    pub(crate) fn is_fixed(self) -> bool {
+        self.form() == Form::Fixed
+    }
+
+    #[inline]
     fn form(self) -> Form {
         ROWS[self as usize].2
     }
@@ -399,13 +406,21 @@ impl Key {
     /// Which key of `group` the text `key` is. Case does not matter; a number may have leading zeros.
     #[inline]
     pub fn of(group: KeyGroup, key: &[u8]) -> Self {
+        Self::spelled(group, key).0
+    }
+
+    /// The same, and whether the case is that of CiA 306.
+    #[inline]
+    pub(crate) fn spelled(group: KeyGroup, key: &[u8]) -> (Self, bool) {
         for &name in group.keys() {
             let spelling = name.spelling().as_bytes();
             let number = match name.form() {
                 Form::Fixed => {
-                    if key.len() == spelling.len() && (key == spelling || key.eq_ignore_ascii_case(spelling))
-                    {
-                        return Self::fixed(name);
+                    if key.len() == spelling.len() {
+                        let is_usual = key == spelling;
+                        if is_usual || key.eq_ignore_ascii_case(spelling) {
+                            return (Self::fixed(name), is_usual);
+                        }
                     }
                     None
                 }
@@ -417,10 +432,14 @@ impl Key {
                 }),
             };
             if let Some(number) = number {
-                return Self { name, number };
+                let is_usual = match name.form() {
+                    Form::Node => key.starts_with(b"Node") && key.ends_with(spelling),
+                    _ => key.starts_with(spelling),
+                };
+                return (Self { name, number }, is_usual);
             }
         }
-        Self::fixed(KeyName::Unknown)
+        (Self::fixed(KeyName::Unknown), true)
     }
 
     /// The key as CiA 306 spells it; `None` for one that it does not know.

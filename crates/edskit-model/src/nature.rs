@@ -69,7 +69,7 @@ impl Nature {
         if text.starts_with(b"<?xml") || text.starts_with(b"<!--") || text.starts_with(b"<ISO15745") {
             return Self::Xml { canopen: contains(text, b"ISO15745") || contains(text, b"CANopen") };
         }
-        if let Some(own) = std::str::from_utf8(bytes).ok().and_then(OwnFile::of) {
+        if let Some(own) = OwnFile::of(bytes) {
             return Self::Own(own);
         }
         if text.starts_with(b"{") {

@@ -40,16 +40,23 @@ impl OwnFile {
     /// assert_eq!(OwnFile::of("[FileInfo]\n"), None);
     /// ```
     #[must_use]
-    pub fn of(text: &str) -> Option<Self> {
-        let text = text.trim_start_matches('\u{FEFF}').trim_start();
-        if text.starts_with('{') {
+    pub fn of(text: impl AsRef<[u8]>) -> Option<Self> {
+        let text = text.as_ref();
+        let text = text.strip_prefix("\u{FEFF}".as_bytes()).unwrap_or(text).trim_ascii_start();
+        if text.starts_with(b"{") {
+            let text = str::from_utf8(text).ok()?;
             let is_baseline =
                 ["\"version\"", "\"files\"", "\"rule\"", "\"section\""].iter().all(|key| text.contains(key));
             return is_baseline.then_some(Self::Baseline);
         }
         let mut found = None;
         let mut in_table = false;
-        for line in text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        // Line by line, because an EDS is known by its first one.
+        for line in text.split(|&byte| byte == b'\n') {
+            let line = str::from_utf8(line).ok()?.trim();
+            if line.is_empty() || line.starts_with('#') {
+                continue;
+            }
             let mark = match line.strip_prefix('[') {
                 Some(header) => {
                     in_table = true;

@@ -2,21 +2,11 @@
 
 use super::{Datasheet, EntryRecord, ObjectRecord, SectionRecord, SubObjectRecord, decimal_names};
 use crate::document::{Document, LineKind};
-use crate::key::{KEY_NAMES, Key, KeyGroup};
+use crate::key::{KEY_NAMES, Key, KeyGroup, KeyName};
 use crate::section::SectionKind;
 
 pub(super) fn datasheet(document: Document) -> Datasheet {
-    let (sections, entries, keys) = read_lines(&document);
-    let mut sheet = Datasheet {
-        document,
-        sections,
-        entries,
-        objects: Vec::new(),
-        sub_objects: Vec::new(),
-        others: Vec::new(),
-        decimal_names: Vec::new(),
-        keys,
-    };
+    let mut sheet = read_lines(document);
     index(&mut sheet);
     if decimal_names::read(&mut sheet) {
         index(&mut sheet);
@@ -53,18 +43,23 @@ fn index(sheet: &mut Datasheet) {
     (sheet.objects, sheet.sub_objects, sheet.others) = (objects, sub_objects, others);
 }
 
-fn read_lines(document: &Document) -> (Vec<SectionRecord>, Vec<EntryRecord>, [bool; KEY_NAMES]) {
+/// Every section and entry, before the objects are known.
+fn read_lines(document: Document) -> Datasheet {
     let source = document.to_bytes();
     let lines = document.lines();
     let mut sections: Vec<SectionRecord> = Vec::with_capacity(lines.len() / 9);
     let mut entries = Vec::with_capacity(lines.len());
+    let mut unusual_keys = Vec::new();
     let mut keys = [false; KEY_NAMES];
-    let mut group = KeyGroup::Unknown;
+    let mut reader = KeyReader::new(KeyGroup::Unknown);
     for (number, line) in lines.iter().enumerate() {
         match line.kind() {
             LineKind::Entry => {
-                let key = Key::of(group, line.key(source).slice(source));
+                let (key, is_usual) = reader.read(line.key(source).slice(source));
                 keys[key.name as usize] = true;
+                if !is_usual {
+                    unusual_keys.push(entries.len() as u32);
+                }
                 entries.push(EntryRecord { line: number as u32, key });
             }
             LineKind::Section => {
@@ -74,7 +69,7 @@ fn read_lines(document: &Document) -> (Vec<SectionRecord>, Vec<EntryRecord>, [bo
                 }
                 let name = line.section_name(source).slice(source).trim_ascii();
                 let kind = SectionKind::of(name);
-                group = KeyGroup::of(kind);
+                reader.enter(KeyGroup::of(kind));
                 sections.push(SectionRecord {
                     line: number as u32,
                     first_entry,
@@ -88,7 +83,57 @@ fn read_lines(document: &Document) -> (Vec<SectionRecord>, Vec<EntryRecord>, [bo
     if let Some(last) = sections.last_mut() {
         last.end_entry = entries.len() as u32;
     }
-    (sections, entries, keys)
+    Datasheet {
+        document,
+        sections,
+        entries,
+        objects: Vec::new(),
+        sub_objects: Vec::new(),
+        others: Vec::new(),
+        decimal_names: Vec::new(),
+        unusual_keys,
+        keys,
+    }
+}
+
+/// Reads the keys of a file one after the other.
+///
+/// The sections of a file have their keys in the same order, so the key that stood behind the last one before is tried first.
+struct KeyReader {
+    group: KeyGroup,
+    previous: KeyName,
+    /// For each key of the group the one that stood behind it; those with numbers are not among them.
+    following: [KeyName; KEY_NAMES],
+}
+
+impl KeyReader {
+    fn new(group: KeyGroup) -> Self {
+        Self { group, previous: KeyName::Unknown, following: [KeyName::Unknown; KEY_NAMES] }
+    }
+
+    /// Goes on with a section that has the keys of `group`.
+    #[inline]
+    fn enter(&mut self, group: KeyGroup) {
+        if group == self.group {
+            self.previous = KeyName::Unknown;
+        } else {
+            *self = Self::new(group);
+        }
+    }
+
+    /// The next key, and whether it is written in the case of CiA 306.
+    #[inline]
+    fn read(&mut self, text: &[u8]) -> (Key, bool) {
+        let expected = &mut self.following[self.previous as usize];
+        if text == expected.spelling().as_bytes() {
+            self.previous = *expected;
+            return (Key::fixed(*expected), true);
+        }
+        let (key, is_usual) = Key::spelled(self.group, text);
+        *expected = if key.name.is_fixed() { key.name } else { KeyName::Unknown };
+        self.previous = key.name;
+        (key, is_usual)
+    }
 }
 
 /// Gives each object the range of its sub-objects; both are sorted by index.

@@ -192,14 +192,16 @@ impl<'a> Object<'a> {
 
     /// The entry at `sub_index`, described or compact.
     pub fn dictionary_entry(self, sub_index: SubIndex) -> Option<DictionaryEntry<'a>> {
+        let entry = |origin| DictionaryEntry { index: self.index(), sub_index, origin };
+        if let Some(sub) = self.sub_object(sub_index) {
+            return Some(entry(Origin::Described(sub.description())));
+        }
         let compact = self.compact_count();
         // Where the object code cannot be read, the sections say what the object is.
         let is_described = || self.sub_objects().len() > 0;
         let has_subs =
             compact > 0 || self.object_code().map_or_else(is_described, |code| code.has_sub_objects());
-        let origin = if let Some(sub) = self.sub_object(sub_index) {
-            Origin::Described(sub.description())
-        } else if !has_subs {
+        let origin = if !has_subs {
             (sub_index.0 == 0).then_some(Origin::Described(self.description()))?
         } else if compact > 0 && sub_index.0 == 0 {
             Origin::Count(self)
@@ -208,7 +210,7 @@ impl<'a> Object<'a> {
         } else {
             return None;
         };
-        Some(DictionaryEntry { index: self.index(), sub_index, origin })
+        Some(entry(origin))
     }
 
     /// Every entry of the object in ascending order, compact ones made as they are asked for.

@@ -40,15 +40,21 @@ pub(super) fn read(sheet: &mut Datasheet) -> bool {
         let entries = section.first_entry as usize..section.end_entry as usize;
         if was_unknown {
             let source = sheet.document.to_bytes();
-            for entry in &mut sheet.entries[entries] {
+            for id in entries {
+                let entry = &mut sheet.entries[id];
                 let line = &sheet.document.lines()[entry.line as usize];
-                entry.key = Key::of(KeyGroup::Description, line.key(source).slice(source));
-                sheet.keys[entry.key.name as usize] = true;
+                let (key, is_usual) = Key::spelled(KeyGroup::Description, line.key(source).slice(source));
+                entry.key = key;
+                sheet.keys[key.name as usize] = true;
+                if !is_usual {
+                    sheet.unusual_keys.push(id as u32);
+                }
             }
         }
         sheet.decimal_names.push(id);
     }
     sheet.decimal_names.sort_unstable();
+    sheet.unusual_keys.sort_unstable();
     is_any
 }
 

@@ -73,6 +73,8 @@ pub struct Datasheet {
     others: Vec<(SectionKind, u32)>,
     /// Sections whose names have a decimal sub-index, ascending.
     decimal_names: Vec<u32>,
+    /// Entries whose keys are in another case than that of CiA 306, ascending.
+    unusual_keys: Vec<u32>,
     /// Which keys there are, by [`KeyName`].
     keys: [bool; KEY_NAMES],
 }
@@ -136,6 +138,17 @@ impl Datasheet {
     /// Every entry of the file in order, with or without a section.
     pub fn entries(&self) -> impl ExactSizeIterator<Item = Entry<'_>> + DoubleEndedIterator {
         (0..self.entries.len() as u32).map(|id| Entry { sheet: self, id })
+    }
+
+    /// Whether some section is read by a decimal sub-index in its name.
+    #[inline]
+    pub fn has_decimal_sub_indices(&self) -> bool {
+        !self.decimal_names.is_empty()
+    }
+
+    /// The entries whose keys are those of CiA 306 but for the case of letters, in the order of the file.
+    pub fn unusual_keys(&self) -> impl ExactSizeIterator<Item = Entry<'_>> {
+        self.unusual_keys.iter().map(|&id| Entry { sheet: self, id })
     }
 
     /// Whether some entry of the file has the key, in whatever section.

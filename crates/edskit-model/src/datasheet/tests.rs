@@ -1,5 +1,5 @@
 use super::*;
-use crate::{KeyName, NumberErrorKind, ValueErrorKind};
+use crate::{KeyGroup, KeyName, NumberErrorKind, ValueErrorKind};
 use edskit_types::{AccessType, Bitrate, DataType, NodeId, ObjectCode, PdoDirection};
 use proptest::prelude::*;
 
@@ -277,4 +277,18 @@ fn read_everything(sheet: &Datasheet) {
     let _ = sheet.implicit_pdos(PdoDirection::Receive).count();
     let _ = sheet.topologies().map(|topology| topology.nodes().len()).sum::<usize>();
     let _ = sheet.dynamic_channels().filter_map(|channel| channel.indices()).count();
+}
+
+#[test]
+fn keys_are_those_of_their_section_whatever_stood_before() {
+    let text = "[1000]\nParameterName=a\nDataType=7\nDefaultValue=1\n[1001]\nParameterName=b\nDataType=5\naccessType=ro\n\
+        [1A00Name]\nNrOfEntries=1\n1=x\n[Tool1]\nName=a\nCommand=b\n[Topology]\nNode1Name=c\nName=d\n\
+        [1002]\nparametername=c\nDataType=5\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\nDataType=5\n";
+    let sheet = Datasheet::parse(text.as_bytes());
+    for entry in sheet.entries() {
+        let group = KeyGroup::of(entry.section().unwrap().kind());
+        assert_eq!(entry.key(), Key::of(group, entry.key_text().as_bytes()), "{}", entry.key_text());
+    }
+    let unusual: Vec<_> = sheet.unusual_keys().map(|entry| entry.key_text().into_owned()).collect();
+    assert_eq!(unusual, ["accessType", "parametername"]);
 }

@@ -1,14 +1,16 @@
 //! From text to lines: `ini_core` splits, recovery explains what it cannot.
 
-use super::line::{Line, LineEnding, LineKind, is_blank};
+use super::line::{LINE_KINDS, Line, LineEnding, LineKind, is_blank};
 use ini_core::{Item, Parser};
 
-/// Splits `text` from offset `first` on, and counts the line endings LF, CR LF and CR.
-pub(super) fn lines(text: &str, first: usize) -> (Vec<Line>, [u32; 3]) {
+/// Splits `text` from offset `first` on, and counts the line endings LF, CR LF and CR; says also which kinds of lines there
+/// are.
+pub(super) fn lines(text: &str, first: usize) -> (Vec<Line>, [u32; 3], [bool; LINE_KINDS]) {
     let source = text.as_bytes();
     // Lines of real files are 17 bytes long on average; a guess a little above saves most reallocations.
     let mut lines = Vec::with_capacity(source.len() / 16 + 1);
     let mut endings = [0; 3];
+    let mut kinds = [false; LINE_KINDS];
     let mut start = first;
     for item in Parser::new(&text[first..]) {
         let (kind, split, end) = match item {
@@ -60,10 +62,11 @@ pub(super) fn lines(text: &str, first: usize) -> (Vec<Line>, [u32; 3]) {
                 1
             }
         };
+        kinds[kind as usize] = true;
         lines.push(Line { start: start as u32, end: end as u32, split: split as u32, kind, ending });
         start = end + length;
     }
-    (lines, endings)
+    (lines, endings, kinds)
 }
 
 /// The first `]` of a header, since nothing behind it belongs to the name; `end` where there is none.

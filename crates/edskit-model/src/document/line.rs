@@ -18,6 +18,9 @@ pub enum LineKind {
     Other,
 }
 
+/// How many kinds there are.
+pub(super) const LINE_KINDS: usize = LineKind::Other as usize + 1;
+
 /// How a line ends.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum LineEnding {

@@ -15,6 +15,7 @@ pub use line::{Line, LineEnding, LineKind};
 pub use position::Position;
 
 use crate::Span;
+use line::LINE_KINDS;
 use std::borrow::Cow;
 
 /// The most bytes that are lexed; spans are 32 bits wide.
@@ -37,6 +38,8 @@ pub struct Document {
     encoding: Encoding,
     byte_order_mark: bool,
     endings: [u32; 3],
+    /// Which kinds of lines there are, by [`LineKind`].
+    kinds: [bool; LINE_KINDS],
 }
 
 impl Document {
@@ -53,11 +56,11 @@ impl Document {
         let byte_order_mark = bytes.starts_with(UTF8_BOM);
         let first = if byte_order_mark { UTF8_BOM.len() } else { 0 };
         let lexed = &bytes[..bytes.len().min(MAX_LEXED)];
-        let (lines, endings) = match std::str::from_utf8(lexed) {
+        let (lines, endings, kinds) = match std::str::from_utf8(lexed) {
             Ok(text) => lex::lines(text, first),
             Err(_) => lex::lines(&encoding::ascii_shadow(lexed), first),
         };
-        Self { bytes, lines, encoding, byte_order_mark, endings }
+        Self { bytes, lines, encoding, byte_order_mark, endings, kinds }
     }
 
     /// The bytes, exactly as they were read.
@@ -74,6 +77,12 @@ impl Document {
     #[inline]
     pub fn lines(&self) -> &[Line] {
         &self.lines
+    }
+
+    /// Whether some line is of the kind.
+    #[inline]
+    pub fn has_line(&self, kind: LineKind) -> bool {
+        self.kinds[kind as usize]
     }
 
     /// How the bytes are read as text.

@@ -129,3 +129,12 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_document_knows_which_kinds_of_lines_it_has() {
+    let document = Document::parse(b"[1000]\na=1\n;b\n");
+    let has = |kind| document.has_line(kind);
+    assert!(has(LineKind::Section) && has(LineKind::Entry) && has(LineKind::Comment));
+    assert!(!has(LineKind::Blank) && !has(LineKind::Other));
+    assert!(Document::parse(b"<<<<<<< HEAD\n\n").has_line(LineKind::Other));
+}

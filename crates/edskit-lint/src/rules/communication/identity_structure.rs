@@ -64,9 +64,11 @@ rule! {
 const LAST: SubIndex = SubIndex(4);
 
 fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
+    if object.index() != Index::IDENTITY {
+        return;
+    }
     // A VAR is the matter of COM001, and an object without any sub-object that of OBJ008 and OBJ012.
-    let is_listed = matches!(object.object_code(), Some(ObjectCode::Array | ObjectCode::Record));
-    if object.index() != Index::IDENTITY || !is_listed {
+    if !matches!(object.object_code(), Some(ObjectCode::Array | ObjectCode::Record)) {
         return;
     }
     let compact = object.compact_count();

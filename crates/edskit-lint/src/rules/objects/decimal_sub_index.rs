@@ -73,7 +73,10 @@ rule! {
     }
 }
 
-fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
+fn check(context: &Context<'_>, object: Object<'_>, report: &mut Report) {
+    if !context.sheet.has_decimal_sub_indices() {
+        return;
+    }
     let subs = object.sub_objects().filter(|sub| sub.section().has_decimal_sub_index());
     let named: Vec<_> = subs.filter_map(|sub| Some((sub, sub.section().kind().canonical_name()?))).collect();
     let Some(((first, right), rest)) = named.split_first() else { return };

@@ -58,20 +58,7 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     let Some(code) = variable.code else { return };
     let structured = code.has_sub_objects();
     let description = variable.description;
-    let foreign = |entry: &Entry<'_>| {
-        let key = entry.key().name;
-        let of_values = matches!(
-            key,
-            KeyName::DataType
-                | KeyName::AccessType
-                | KeyName::DefaultValue
-                | KeyName::PdoMapping
-                | KeyName::LowLimit
-                | KeyName::HighLimit
-        );
-        let of_structure = matches!(key, KeyName::SubNumber | KeyName::CompactSubObj);
-        (if structured { of_values } else { of_structure }) && says_something(*entry)
-    };
+    let foreign = |entry: &Entry<'_>| is_foreign(entry.key().name, structured) && says_something(*entry);
     // The usual case: nothing foreign, and nothing is allocated.
     if code == ObjectCode::Null || (structured && variable.sub_index.is_some()) {
         return;
@@ -127,7 +114,19 @@ fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
     }
 }
 
+/// Whether a key belongs to values where there is a structure, or the other way round.
+#[inline]
+fn is_foreign(key: KeyName, structured: bool) -> bool {
+    use KeyName::*;
+    match key {
+        DataType | AccessType | DefaultValue | PdoMapping | LowLimit | HighLimit => structured,
+        SubNumber | CompactSubObj => !structured,
+        _ => false,
+    }
+}
+
 /// Whether the value is more than nothing. A number that cannot be read is the matter of SYN017.
+#[inline(never)]
 fn says_something(entry: Entry<'_>) -> bool {
     match entry.key().name {
         KeyName::AccessType | KeyName::DataType | KeyName::DefaultValue => !entry.is_empty(),

@@ -71,31 +71,20 @@ fn check(context: &Context<'_>, report: &mut Report) {
         if let Some(usual) = usual_name(section, source).filter(|_| !repeated.contains(&section.kind())) {
             add(true, stem(section.kind(), &usual), section.name_span(), usual);
         }
-        if section.kind() == SectionKind::Unknown {
-            continue;
+    }
+    let mut counts: Option<(Span, HashMap<Key, usize>)> = None;
+    for entry in context.sheet.unusual_keys() {
+        let Some(section) = entry.section() else { continue };
+        let header = section.span();
+        if counts.as_ref().is_none_or(|(counted, _)| *counted != header) {
+            let mut keys = HashMap::new();
+            section.keys().for_each(|key| *keys.entry(key).or_default() += 1);
+            counts = Some((header, keys));
         }
-        let mut counts = None;
-        for entry in section.entries() {
-            let name = entry.key().name;
-            let spelling = name.spelling().as_bytes();
-            // Nearly every key is as it should be, and this is faster than to find its end.
-            let line = &source[entry.line().span().start as usize..];
-            if spelling.is_empty() || line.starts_with(spelling) {
-                continue;
-            }
-            let written = entry.key_span();
-            let text = written.slice(source);
-            let mut is_alone = || {
-                let count = |mut counts: HashMap<Key, usize>, key| {
-                    *counts.entry(key).or_default() += 1;
-                    counts
-                };
-                let counts = counts.get_or_insert_with(|| section.keys().fold(HashMap::new(), count));
-                counts.get(&entry.key()) == Some(&1)
-            };
-            if let Some(usual) = usual_key(name, text).filter(|_| is_alone()) {
-                add(false, name.spelling().to_owned(), written, usual);
-            }
+        let is_alone = counts.as_ref().is_some_and(|(_, keys)| keys.get(&entry.key()) == Some(&1));
+        let (name, written) = (entry.key().name, entry.key_span());
+        if let Some(usual) = usual_key(name, written.slice(source)).filter(|_| is_alone) {
+            add(false, name.spelling().to_owned(), written, usual);
         }
     }
     for Unusual { first, usual, is_section, edits } in found {
@@ -126,7 +115,6 @@ fn stem(kind: SectionKind, usual: &str) -> String {
 }
 
 /// A key as CiA 306 writes it, where only its case differs; the digits of a number stay.
-#[cold]
 fn usual_key(name: KeyName, text: &[u8]) -> Option<String> {
     let spelling = name.spelling();
     let text = std::str::from_utf8(text).ok()?;

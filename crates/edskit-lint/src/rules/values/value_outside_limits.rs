@@ -56,6 +56,10 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
+    // The usual case, before anything is copied.
+    if variable.low_limit.is_none() && variable.high_limit.is_none() && !variable.has_own_type {
+        return;
+    }
     let [low, high] = variable.range();
     let (low, high) = (variable.low_limit.or(low), variable.high_limit.or(high));
     if low.is_none() && high.is_none() {
