@@ -19,14 +19,14 @@ use Libraries::{Any, Only};
 const ALLOWED: &[(&str, &[&str], Libraries)] = &[
     ("edskit-types", &[], Only(&[])),
     ("edskit-model", &["edskit-types"], Only(&["encoding_rs", "ini_core", "serde"])),
-    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["serde", "toml"])),
+    ("edskit-lint", &["edskit-types", "edskit-model"], Only(&["globset", "serde", "toml"])),
     ("edskit-devices", &["edskit-types", "edskit-runtime", "edskit-codegen"], Only(&["heapless"])),
     ("edskit-host", &["edskit-types", "edskit-runtime"], Any),
     ("edskit-runtime", &["edskit-types"], Only(&["embedded-can"])),
     (
         "edskit-codegen",
         &["edskit-types", "edskit-model", "edskit-lint", "edskit-runtime"],
-        Only(&["askama", "globset", "serde", "toml"]),
+        Only(&["askama", "serde", "toml"]),
     ),
     (
         "edskit",

@@ -1,7 +1,7 @@
 //! For build scripts: the one part of the crate that knows files, the environment, and cargo.
 
-use crate::{Naming, Problem, generate, module_name, settings};
-use edskit_lint::{Linter, Profile, RuleSet};
+use crate::{Naming, Problem, generate, module_name};
+use edskit_lint::{Linter, Profile, RuleSet, SETTINGS_FILE, Settings};
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf, absolute};
@@ -145,28 +145,37 @@ impl Config {
         let mut profiles = Vec::new();
         let mut rules = self.rules.clone().unwrap_or_default();
         let whole = absolute(eds).unwrap_or_else(|_| eds.to_path_buf());
-        let candidates = whole.ancestors().skip(1).map(|folder| (folder, folder.join(settings::FILE_NAME)));
+        let candidates = whole.ancestors().skip(1).map(|folder| (folder, folder.join(SETTINGS_FILE)));
         let found = candidates.into_iter().find(|(_, path)| self.rules.is_none() && path.is_file());
         if let Some((folder, path)) = found {
             say(cargo, "rerun-if-changed", &path.to_string_lossy())?;
-            let wrong = |error: &dyn core::fmt::Display| Ok(Err(format!("{}:{error}", path.display())));
-            let text = match fs::read_to_string(&path) {
-                Ok(text) => text,
-                Err(error) => return wrong(&error),
+            let shown = path.display();
+            let settings = match fs::read_to_string(&path) {
+                Ok(text) => Settings::parse(&text),
+                Err(error) => return Ok(Err(format!("{shown}: {error}"))),
             };
-            let relative = whole.strip_prefix(folder).unwrap_or(&whole).to_string_lossy().replace('\\', "/");
-            let said = match settings::rules_for(&text, &relative) {
-                Ok(said) => said,
-                Err(error) => return wrong(&error),
+            let settings = match settings {
+                Ok(settings) => settings,
+                // The place follows directly, so that editors find it.
+                Err(error) if error.place.is_some() => return Ok(Err(format!("{shown}:{error}"))),
+                Err(error) => return Ok(Err(format!("{shown}: {error}"))),
             };
-            rules = said.rules;
-            for name in said.profiles {
-                let path = folder.join(name);
+            rules = settings.rules_for(
+                &whole.strip_prefix(folder).unwrap_or(&whole).to_string_lossy().replace('\\', "/"),
+            );
+            for named in settings.profiles() {
+                let path = folder.join(&named.path);
                 say(cargo, "rerun-if-changed", &path.to_string_lossy())?;
-                let read = fs::read_to_string(&path).map_err(|error| error.to_string());
-                match read.and_then(|text| Profile::parse(&text).map_err(|error| error.to_string())) {
+                let text = match fs::read_to_string(&path) {
+                    Ok(text) => text,
+                    Err(error) => {
+                        let place = format!("{shown}:{}:{}", named.line, named.column);
+                        return Ok(Err(format!("{place}: {}: {error}", path.display())));
+                    }
+                };
+                match Profile::parse(&text) {
                     Ok(profile) => profiles.push(profile),
-                    Err(error) => return Ok(Err(format!("{}: {error}", path.display()))),
+                    Err(error) => return Ok(Err(format!("{}:{error}", path.display()))),
                 }
             }
         }

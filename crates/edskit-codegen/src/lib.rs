@@ -28,7 +28,6 @@ mod layout;
 mod loaded;
 mod problem;
 mod render;
-mod settings;
 mod side_file;
 mod text;
 

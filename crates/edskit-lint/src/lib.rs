@@ -26,6 +26,7 @@ mod profile;
 mod rule;
 mod rule_set;
 pub mod rules;
+mod settings;
 mod suppression;
 #[cfg(test)]
 mod testing;
@@ -34,7 +35,7 @@ mod wording;
 pub use context::{Context, MOST_FINDINGS, Report, Variable};
 pub use edskit_model::nearest;
 pub use finding::{Applicability, Edit, Finding, Fix, Label, Severity};
-pub use fixer::{Fixed, fix, fix_with};
+pub use fixer::{Fixed, fix, fix_with, withdraw_refused};
 pub use linter::Linter;
 pub use neighbours::Neighbours;
 pub use peers::{PEER_FINDINGS, Peer, PeerFinding};
@@ -44,3 +45,4 @@ pub use rule::{
     ObjectCheck, Rule, SectionCheck, VariableCheck,
 };
 pub use rule_set::{RuleSet, UnknownRule, find};
+pub use settings::{FILE_NAME as SETTINGS_FILE, ProfilePath, Settings, SettingsError};

@@ -23,7 +23,18 @@ const MARKS: [(OwnFile, &[&str]); 5] = [
     (OwnFile::Scenario, &["step", "step.gateway", "step.governor", "step.engine", "step.read"]),
     (
         OwnFile::Settings,
-        &["select", "extend-select", "ignore", "profiles", "severity", "override", "override.severity"],
+        &[
+            "select",
+            "extend-select",
+            "ignore",
+            "profiles",
+            "exclude",
+            "fail-on",
+            "baseline",
+            "severity",
+            "override",
+            "override.severity",
+        ],
     ),
     (OwnFile::Profile, &["device-profile", "object", "require"]),
     (OwnFile::SideFile, &["optional", "variable", "rpdo", "storage", "capacity", "unit", "extra"]),
@@ -80,6 +91,18 @@ impl OwnFile {
             }
         }
         found
+    }
+
+    /// What is said where it was given instead of the `wanted` one; `None` where it is that.
+    #[must_use]
+    pub fn instead_of(self, wanted: Self) -> Option<String> {
+        (self != wanted).then(|| self.told())
+    }
+
+    /// What it is, and which command takes it, in one sentence.
+    #[must_use]
+    pub fn told(self) -> String {
+        format!("this is {}: {}", self.name(), self.command())
     }
 
     /// What it is.

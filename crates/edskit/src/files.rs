@@ -151,14 +151,12 @@ pub(crate) fn read(path: &Path, streams: &mut Streams) -> io::Result<Vec<u8>> {
 
 /// What a file of edskit itself is, and which command takes it; `None` for other files.
 pub(crate) fn own_file(bytes: &[u8]) -> Option<String> {
-    let own = OwnFile::of(bytes)?;
-    Some(format!("this is {}: {}", own.name(), own.command()))
+    OwnFile::of(bytes).map(OwnFile::told)
 }
 
 /// The same where one kind of these files is wanted, and the file is another one.
 pub(crate) fn another_own_file(bytes: &[u8], wanted: OwnFile) -> Option<String> {
-    let is_wanted = OwnFile::of(bytes) == Some(wanted);
-    own_file(bytes).filter(|_| !is_wanted)
+    OwnFile::of(bytes)?.instead_of(wanted)
 }
 
 /// Why a file could not be read.

@@ -159,7 +159,24 @@ fn what_is_allowed_does_not_stop_the_build() {
     assert!(is_built(&Config::new()).0);
     folder.write("edskit.toml", "ignore = 5\n");
     let (built, told) = is_built(&Config::new());
-    assert!(!built && told.contains("cargo::error=<folder>/edskit.toml:1: invalid type"), "{told}");
+    assert!(!built && told.contains("cargo::error=<folder>/edskit.toml:1:10: invalid type"), "{told}");
+    for (text, error) in [
+        ("\nignroe = ['VAL002']\n", "edskit.toml:2:1: unknown key `ignroe`; did you mean `ignore`?"),
+        ("exclude = ['x/**', 'a[']\n", "edskit.toml:1:20: error parsing glob 'a['"),
+        ("profiles = ['pumps.toml']\n", "edskit.toml:1:13: <folder>/pumps.toml: "),
+        ("[gateway]\n427 = 5\n", "edskit.toml: this is a parameter file of edskit: "),
+    ] {
+        folder.write("edskit.toml", text);
+        let (built, told) = is_built(&Config::new());
+        assert!(!built && told.contains(&format!("cargo::error=<folder>/{error}")), "{told}");
+    }
+    folder.write("pumps.toml", "name = 'Pumps'\ncolour = 'blue'\n");
+    folder.write("edskit.toml", "profiles = ['pumps.toml']\n");
+    let (built, told) = is_built(&Config::new());
+    assert!(
+        !built && told.contains("cargo::error=<folder>/pumps.toml:2:1: unknown field `colour`"),
+        "{told}"
+    );
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::notation::{Access, Code, Constant, OneOrMany, OneOrRange, Type};
 use super::{Attributes, Profile, ProfileObject, ProfileSub, Requirement};
+use crate::settings::line_and_column;
 use core::fmt;
 use core::ops::{Range, RangeInclusive};
 use edskit_types::{AccessType, Index};
@@ -20,13 +21,8 @@ pub struct ProfileError {
 
 impl ProfileError {
     fn new(text: &str, offset: usize, message: &str) -> Self {
-        let before = text.get(..offset).unwrap_or(text);
-        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        Self {
-            line: before.matches('\n').count() + 1,
-            column: before[start..].chars().count() + 1,
-            message: message.trim().replace('\n', ", "),
-        }
+        let (line, column) = line_and_column(text, offset);
+        Self { line, column, message: message.trim().replace('\n', ", ") }
     }
 }
 

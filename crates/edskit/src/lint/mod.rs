@@ -81,7 +81,12 @@ fn try_run(arguments: &LintArguments, streams: &mut Streams) -> Result<Exit, Sto
     }
     let jobs = jobs(found.inputs, arguments, streams)?;
     let baselines = Baselines::read(&jobs, arguments, streams)?;
-    let mut summary = Summary { failures: found.failures, only_looks: arguments.diff, ..Summary::default() };
+    let mut summary = Summary {
+        failures: found.failures,
+        only_looks: arguments.diff,
+        fixes: arguments.fix || arguments.diff,
+        ..Summary::default()
+    };
     for failure in &summary.failures {
         streams.complain(format_args!("{failure}"));
     }
@@ -282,10 +287,10 @@ fn jobs(inputs: Vec<Input>, arguments: &LintArguments, streams: &mut Streams) ->
     let mut finder = Finder::default();
     let given = match &arguments.config {
         Some(path) => Some(Arc::new(Settings::read(path).map_err(|error| error.to_string())?)),
-        None if arguments.isolated => Some(Arc::new(Settings::none())),
+        None if arguments.isolated => Some(Arc::new(Settings::default())),
         None => None,
     };
-    let nothing = Arc::new(Settings::none());
+    let nothing = Arc::new(Settings::default());
     let own = arguments.profiles.iter().map(|path| profiles::read(path));
     let own: Vec<Profile> = own.collect::<Result<_, _>>().map_err(|error| error.to_string())?;
     let mut job = |input: Input| {
@@ -385,8 +390,13 @@ fn lint_file(
             }
         }
     } else {
-        let found = findings(job, &name, &sheet, kind);
-        (sheet, found, Fixes::default())
+        let mut found = findings(job, &name, &sheet, kind);
+        let mut fixes = Fixes::default();
+        if shows_fixes(arguments) {
+            let again = |sheet: &Datasheet| findings(job, &name, sheet, kind);
+            fixes.refused = edskit_lint::withdraw_refused(&sheet, &mut found, again);
+        }
+        (sheet, found, fixes)
     };
     findings.iter_mut().for_each(printable::finding);
     let mut fingerprints: Vec<Fingerprint> = if job.baseline.is_some() {
@@ -407,6 +417,12 @@ fn lint_file(
     let findings = findings.into_iter().map(|finding| Located::new(sheet.document(), finding)).collect();
     let outcome = Outcome::Linted { findings, excerpts, fingerprints, known, fixes };
     (FileReport { name, kind, threshold: job.threshold, outcome }, remark)
+}
+
+/// Whether people see which findings have a safe fix, so that it has to be one.
+fn shows_fixes(arguments: &LintArguments) -> bool {
+    !arguments.statistics
+        && matches!(arguments.format, LintFormat::Human | LintFormat::Json | LintFormat::Sarif)
 }
 
 /// What is said of a file whose fixes did not come to their end.

@@ -38,7 +38,7 @@ pub(crate) enum Outcome {
 pub(crate) struct Fixes {
     /// How many findings were fixed.
     pub(crate) applied: usize,
-    /// How many fixes were left out, because they would have made the file worse.
+    /// How many fixes were left out, or would be, because they would have made the file worse.
     pub(crate) refused: usize,
     /// What would make the file what it would be; only with `--diff`.
     pub(crate) patch: Vec<u8>,
@@ -92,8 +92,10 @@ pub(crate) struct Summary {
     pub(crate) known: usize,
     /// Findings that were fixed.
     pub(crate) fixed: usize,
-    /// Fixes that were left out.
+    /// Fixes that were left out, or would be.
     pub(crate) refused: usize,
+    /// Whether fixes are made, or shown as a patch.
+    pub(crate) fixes: bool,
     /// Whether the files stay as they are, and fixes only would be made.
     pub(crate) only_looks: bool,
     /// What could not be searched or read, and why.
@@ -124,8 +126,12 @@ impl Summary {
     /// What is said of fixes that were left out, if any were.
     pub(crate) fn left_out(&self) -> Option<String> {
         let (fixes, they) = if self.refused == 1 { ("fix", "it") } else { ("fixes", "they") };
-        let told = || format!("{} {fixes} left out: {they} would uncover other errors", self.refused);
-        (self.refused > 0).then(told)
+        let count = self.refused;
+        let told = || match self.fixes {
+            true => format!("{count} {fixes} left out: {they} would uncover other errors"),
+            false => format!("{count} {fixes} that `--fix` leaves out: {they} would uncover other errors"),
+        };
+        (count > 0).then(told)
     }
 
     /// How the run ended.

@@ -1,8 +1,9 @@
 use super::elements::{self, like, rewrite};
+use super::error_field::{self, Part};
 use crate::rule::rule;
 use crate::{Context, Report, Variable};
 use edskit_model::SubObject;
-use edskit_types::{AccessType, Index, SubIndex};
+use edskit_types::AccessType;
 
 rule! {
     /// The error history has the wrong rights
@@ -64,25 +65,23 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    if variable.index != Index::PREDEFINED_ERROR_FIELD {
-        return;
-    }
+    let Some(part) = error_field::part(variable) else { return };
     let Some(field) = variable.access_type else { return };
     let Some(access) = field.known() else { return };
     // CiA 301 always prescribes something for it, unless it is a VAR, which is the matter of COM001.
     let Some(prescribed) = variable.prescribed().next() else { return };
     let is_clearable = access.is_readable() && access.is_writable();
     let is_history = access.is_readable() && !access.is_writable();
-    let (right, message) = match variable.sub_index {
-        Some(SubIndex(0)) if !is_clearable => (
+    let (right, message) = match part {
+        Part::Count if !is_clearable => (
             AccessType::Rw,
             format!("1003h sub-index 00h is `{access}`, so that the error history cannot be cleared"),
         ),
-        Some(SubIndex(1..=0xFE)) if !is_history => (
+        Part::Error if !is_history => (
             AccessType::Ro,
             format!("{} is `{access}`, so that anybody could write an error", variable.place()),
         ),
-        None if variable.is_compact() && !is_history => {
+        Part::Object if variable.is_compact() && !is_history => {
             (AccessType::Ro, format!("the errors of 1003h are `{access}`, so that anybody could write one"))
         }
         _ => return,

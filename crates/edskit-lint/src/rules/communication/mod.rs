@@ -3,6 +3,7 @@
 mod default_differs;
 mod elements;
 mod emcy_default;
+mod error_field;
 mod error_history;
 mod guard_pair;
 mod heartbeat_consumer;

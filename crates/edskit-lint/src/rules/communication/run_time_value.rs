@@ -1,8 +1,8 @@
+use super::error_field::{self, Part};
 use crate::evaluate::stated;
 use crate::rule::rule;
 use crate::{Context, Edit, Report, Variable};
 use edskit_model::KeyName;
-use edskit_types::{Index, SubIndex};
 
 rule! {
     /// The file says which errors have happened
@@ -68,18 +68,16 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    if variable.index != Index::PREDEFINED_ERROR_FIELD || variable.sub_index == Some(SubIndex(0xFF)) {
-        return;
-    }
+    let Some(part) = error_field::part(variable) else { return };
     for value in stated(context, variable) {
         // What does not fit its type is the matter of VAL002.
         let Some(number) = value.constant::<i128>().filter(|number| *number != 0) else { continue };
         let entry = value.entry;
-        let what = match variable.sub_index {
-            Some(SubIndex(0)) => {
+        let what = match part {
+            Part::Count => {
                 format!("1003h sub-index 00h is {number}, but it counts the errors since power-on")
             }
-            _ => format!(
+            Part::Error | Part::Object => format!(
                 "{} holds the error {number:X}h, but no error has happened at power-on",
                 variable.place()
             ),

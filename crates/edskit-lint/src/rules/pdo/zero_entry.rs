@@ -1,7 +1,8 @@
 use crate::pdos::{DescribedPdo, Target};
 use crate::rule::rule;
 use crate::{Context, Report, Severity};
-use edskit_model::{KeyName, SubObject};
+use edskit_model::{DictionaryEntry, KeyName};
+use edskit_types::SubIndex;
 
 rule! {
     /// A counted mapping entry is 0 or has no value
@@ -95,39 +96,47 @@ fn check(context: &Context<'_>, report: &mut Report) {
     }
 }
 
-/// Reports the counted entries that are described and have no value.
+/// Reports the counted entries that exist and have no value, in the compact form too.
 fn without_value(pdo: &DescribedPdo<'_>, report: &mut Report) {
     let (Some(mapping), Some(count), Some(number)) = (pdo.mapping, pdo.count, pdo.mapped_count()) else {
         return;
     };
-    if mapping.compact_count() > 0 {
-        return;
-    }
-    let has_value = |sub: &SubObject<'_>| {
-        let keys = [KeyName::ParameterValue, KeyName::DefaultValue];
-        keys.into_iter().any(|key| sub.section().filled(key).is_some())
+    let has_value = |entry: &DictionaryEntry<'_>| match entry.description() {
+        Some(description) => {
+            let keys = [KeyName::ParameterValue, KeyName::DefaultValue];
+            keys.into_iter().any(|key| description.filled(key).is_some())
+        }
+        None => entry.value_field().is_some(),
     };
-    let counted = mapping.sub_objects().filter(|sub| (1..=number).contains(&sub.sub_index().0));
-    let mut empty = counted.filter(|sub| !has_value(sub));
-    let Some(first) = empty.next() else { return };
-    let last = empty.next_back().map_or(first.sub_index(), |sub| sub.sub_index());
-    let which = if first.sub_index() == last {
-        format!("entry {} of {pdo} has", last.0)
-    } else {
-        format!("entries {} to {} of {pdo} have", first.sub_index().0, last.0)
+    let counted = (1..=number).filter_map(|sub_index| mapping.dictionary_entry(SubIndex(sub_index)));
+    let empty: Vec<_> = counted.filter(|entry| !has_value(entry)).collect();
+    let (Some(first), Some(last)) = (empty.first(), empty.last()) else { return };
+    let which = match (first.sub_index.0, last.sub_index.0) {
+        (first, last) if first == last => format!("entry {last} of {pdo} has"),
+        (first, last) if usize::from(last - first) + 1 == empty.len() => {
+            format!("entries {first} to {last} of {pdo} have")
+        }
+        (first, last) => format!("{} entries of {pdo} between {first} and {last} have", empty.len()),
     };
-    let finding = report.add(first.span(), format!("{which} no value, but the mapping has {number}"));
+    // An entry of the compact form has no section: its count says that it is there.
+    let place = first.description().map_or(count.span(), |description| description.span());
+    let finding = report.add(place, format!("{which} no value, but the mapping has {number}"));
     // The device may have a value that the file does not know.
     finding.severity(Severity::Warning);
-    finding.label(count.span(), "the number of mapped entries");
-    let used = first.sub_index().0 - 1;
-    finding.help(format!("write {used} there, or name an object here"));
+    if place != count.span() {
+        finding.label(count.span(), "the number of mapped entries");
+    }
+    let used = first.sub_index.0 - 1;
+    finding.help(match first.description() {
+        Some(_) => format!("write {used} there, or name an object here"),
+        None => format!("name an object for each entry in `[{:04X}Value]`", first.index.0),
+    });
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::findings;
+    use crate::testing::{findings, findings_in};
 
     fn found(cob_id: &str, count: &str, entries: &[&str]) -> Vec<String> {
         let mut text = format!(
@@ -159,7 +168,38 @@ mod tests {
             ["6:1 warning: entry 1 of TPDO1 has no value, but the mapping has 1"]
         );
         let configured = format!("{transmit}ParameterValue=0x20000010\n");
-        assert_eq!(crate::testing::findings_in(&ZERO_ENTRY, "a.dcf", configured.as_bytes()), [""; 0]);
+        assert_eq!(findings_in(&ZERO_ENTRY, "a.dcf", configured.as_bytes()), [""; 0]);
+    }
+
+    #[test]
+    fn the_compact_form_is_as_the_long_one() {
+        let compact = |values: &str| {
+            format!(
+                "[1600]\nObjectType=9\nDataType=7\nAccessType=rw\nCompactSubObj=4\n{values}[6040]\nDataType=6\n"
+            )
+        };
+        let list = |items: &str| compact(&format!("[1600Value]\nNrOfEntries=4\n{items}"));
+        for (text, which) in [
+            (compact(""), "entries 1 to 4 of RPDO1 have"),
+            (list("1=0x60400010\n2=0x60400010\n3=\n"), "entries 3 to 4 of RPDO1 have"),
+            (list("1=0x60400010\n3=0x60400010\n4=0x60400010\n"), "entry 2 of RPDO1 has"),
+            (list("1=0x60400010\n3=0x60400010\n"), "2 entries of RPDO1 between 2 and 4 have"),
+        ] {
+            assert_eq!(
+                findings(&ZERO_ENTRY, &text),
+                [format!("5:15 warning: {which} no value, but the mapping has 4")]
+            );
+            let transmit = text.replace("1600", "1A00");
+            assert_eq!(
+                findings(&ZERO_ENTRY, &transmit),
+                [format!("5:15 warning: {} no value, but the mapping has 4", which.replace("RPDO", "TPDO"))]
+            );
+            assert_eq!(findings_in(&ZERO_ENTRY, "a.dcf", text.as_bytes()).len(), 1);
+        }
+        let all = list("1=0x60400010\n2=0x60400010\n3=0x60400010\n4=0x60400010\n");
+        assert_eq!(findings(&ZERO_ENTRY, &all), [""; 0]);
+        let by_default = compact("").replace("CompactSubObj", "DefaultValue=0x60400010\nCompactSubObj");
+        assert_eq!(findings(&ZERO_ENTRY, &by_default), [""; 0]);
     }
 
     #[test]

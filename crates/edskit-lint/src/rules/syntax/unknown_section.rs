@@ -1,8 +1,10 @@
 use crate::rule::rule;
+use crate::wording::FEW;
 use crate::{Context, Edit, Report, Severity};
 use edskit_model::nearest;
 use edskit_model::{Section, SectionKind};
-use std::collections::HashMap;
+use edskit_types::Index;
+use std::collections::{HashMap, HashSet};
 
 rule! {
     /// A section is not one of CiA 306
@@ -10,8 +12,8 @@ rule! {
     /// ## What it does
     /// Lists the sections that CiA 306 does not know. Sections whose names differ only in the number at their end are
     /// listed once. A name that looks like a known one is a warning, also with letters that look like digits (`[1AOO]`),
-    /// and an error where the file is wrong without that section. A sub-index above FFh is the matter of
-    /// sub-index-too-large.
+    /// and an error where the file is wrong without that section; the misspelt headers of one object are one finding. A
+    /// sub-index above FFh is the matter of sub-index-too-large.
     ///
     /// ## Why is this bad
     /// Extensions are allowed, and other tools skip them. But a misspelt section is skipped in the same way, with
@@ -58,6 +60,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let mut compared = 0;
     let mut groups: HashMap<String, usize> = HashMap::new();
     let mut listed: Vec<(Section<'_>, usize)> = Vec::new();
+    let mut slips = Slips::default();
     for section in context.sheet.sections().filter(|section| section.kind() == SectionKind::Unknown) {
         let name = section.name();
         // SYN006 reports headers that are not even well formed, OBJ027 sub-indices that are too large.
@@ -68,7 +71,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
         if compared <= MOST_COMPARED
             && let Some(known) = suggestion(context, &name)
         {
-            misspelt(context, section, &known, report);
+            slips.add(Slip { section, kind: SectionKind::of(known.as_bytes()), known });
             continue;
         }
         let stem = name.trim_end_matches(|c: char| c.is_ascii_digit()).to_ascii_lowercase();
@@ -78,8 +81,40 @@ fn check(context: &Context<'_>, report: &mut Report) {
             None => listed.push((section, 1)),
         }
     }
+    for group in slips.groups {
+        misspelt(context, &group, report);
+    }
     for (section, count) in listed {
         unknown(section, count, report);
+    }
+}
+
+/// A misspelt header.
+struct Slip<'a> {
+    section: Section<'a>,
+    /// The name that was meant, and what it is.
+    known: String,
+    kind: SectionKind,
+}
+
+/// The misspelt headers; those of one object are together, because one slip is often made in all of them.
+#[derive(Default)]
+struct Slips<'a> {
+    groups: Vec<Vec<Slip<'a>>>,
+    of_object: HashMap<Index, usize>,
+}
+
+impl<'a> Slips<'a> {
+    fn add(&mut self, slip: Slip<'a>) {
+        let is_of_module = matches!(slip.kind, SectionKind::Module(..));
+        let position = match slip.kind.index().filter(|_| !is_of_module) {
+            Some(index) => *self.of_object.entry(index).or_insert(self.groups.len()),
+            None => self.groups.len(),
+        };
+        match self.groups.get_mut(position) {
+            Some(group) => group.push(slip),
+            None => self.groups.push(vec![slip]),
+        }
     }
 }
 
@@ -91,14 +126,34 @@ pub(super) fn meant(context: &Context<'_>) -> Vec<SectionKind> {
     kinds.filter(|kind| *kind != SectionKind::Unknown).collect()
 }
 
-fn misspelt(context: &Context<'_>, section: Section<'_>, known: &str, report: &mut Report) {
-    let message = format!("`[{}]` is not a section of CiA 306; it looks like `[{known}]`", section.name());
-    let finding = report.add(section.name_span(), message);
-    let kind = SectionKind::of(known.as_bytes());
-    let severity = if is_missed(context, kind) { Severity::Error } else { Severity::Warning };
-    finding.severity(severity).help(format!("write `[{known}]` if that is meant"));
-    if context.sheet.section(kind).is_none() {
-        finding.unsafe_fix(format!("Write `[{known}]`"), vec![Edit::replace(section.name_span(), known)]);
+/// Reports the misspelt headers of one object, or one header of another section.
+fn misspelt(context: &Context<'_>, slips: &[Slip<'_>], report: &mut Report) {
+    let Some((first, rest)) = slips.split_first() else { return };
+    let known = &first.known;
+    let more = match rest.len() {
+        0 => String::new(),
+        1 => ", and one more header of the object is misspelt".to_owned(),
+        more => format!(", and {more} more headers of the object are misspelt"),
+    };
+    let name = first.section.name();
+    let message = format!("`[{name}]` is not a section of CiA 306; it looks like `[{known}]`{more}");
+    let finding = report.add(first.section.name_span(), message);
+    for slip in rest.iter().take(FEW) {
+        finding.label(slip.section.name_span(), format!("this looks like `[{}]`", slip.known));
+    }
+    let is_missed = slips.iter().any(|slip| is_missed(context, slip.kind));
+    finding.severity(if is_missed { Severity::Error } else { Severity::Warning });
+    finding.help(format!("write `[{known}]` if that is meant"));
+    // A section that is there already, or is meant twice, would stand twice.
+    let mut kinds = HashSet::new();
+    let is_free = |slip: &Slip<'_>| context.sheet.section(slip.kind).is_none();
+    if slips.iter().all(|slip| is_free(slip) && kinds.insert(slip.kind)) {
+        let title = match rest {
+            [] => format!("Write `[{known}]`"),
+            _ => format!("Write `[{known}]`, and the others in the same way"),
+        };
+        let edits = slips.iter().map(|slip| Edit::replace(slip.section.name_span(), slip.known.as_str()));
+        finding.unsafe_fix(title, edits.collect());
     }
 }
 
@@ -274,6 +329,32 @@ mod tests {
                 "3:2 info: `[File]` is not a section of CiA 306",
             ]
         );
+    }
+
+    #[test]
+    fn one_slip_in_all_headers_of_an_object_is_one_finding() {
+        let text = "[1A01]\n[1AOO]\n[1AOOsub0]\n[1AOOsub1]\n[1A01sub0]\n[lA01sub1]\n[1018sup1]\n[1018sup2]\n[FielInfo]\n";
+        assert_eq!(
+            findings(&UNKNOWN_SECTION, text),
+            [
+                "2:2 warning: `[1AOO]` is not a section of CiA 306; it looks like `[1A00]`, and 2 more headers of the object are misspelt",
+                "6:2 warning: `[lA01sub1]` is not a section of CiA 306; it looks like `[1A01sub1]`",
+                "7:2 warning: `[1018sup1]` is not a section of CiA 306; it looks like `[1018sub1]`, and one more header of the object is misspelt",
+                "9:2 warning: `[FielInfo]` is not a section of CiA 306; it looks like `[FileInfo]`",
+            ]
+        );
+        let right = text
+            .replace("1AOO", "1A00")
+            .replace("lA01", "1A01")
+            .replace("sup", "sub")
+            .replace("Fiel", "File");
+        assert_eq!(fixed(&UNKNOWN_SECTION, text), right);
+        let listed = format!("[OptionalObjects]\n1=0x1A00\n{text}");
+        assert!(findings(&UNKNOWN_SECTION, &listed)[0].starts_with("4:2 error"));
+        // Which of the two is meant, nobody knows.
+        let twice = "[1AOO]\n[1AOOsub1]\n[1A0Osub1]\n";
+        assert_eq!(findings(&UNKNOWN_SECTION, twice).len(), 1);
+        assert_eq!(fixed(&UNKNOWN_SECTION, twice), twice);
     }
 
     #[test]
