@@ -5,7 +5,7 @@ mod search;
 mod state;
 
 use crate::{Applicability, FileKind, Finding, Fix, Linter};
-use edits::{choose, is_wanted, moved, wanted};
+use edits::{apply, choose, is_wanted, moved, wanted};
 use edskit_model::{Datasheet, Document};
 use search::Round;
 use state::{Places, State, places};
@@ -83,6 +83,15 @@ pub fn withdraw_refused(
         return 0;
     }
     let state = State { sheet: sheet.clone(), findings: findings.to_vec() };
+    // The usual case: all of them are applied at once.
+    let chosen = choose(&state, least, &[]);
+    if chosen.len() == wanted(&state, least).count() {
+        let sheet = Datasheet::new(Document::from_vec(apply(&state.sheet, &chosen)));
+        let after = State { findings: lint(&sheet), sheet };
+        if after.has_no_more_than(&state) {
+            return 0;
+        }
+    }
     let done = apply_all(state, least, MOST_TRIALS_OF_A_LOOK, lint);
     // The fixes before it have moved a finding, but not out of its section.
     let mut refused: HashMap<_, usize> = HashMap::new();

@@ -234,12 +234,27 @@ fn without_separators(text: &[u8]) -> &[u8] {
     &text[start..]
 }
 
-/// `1018h`, `$1018`, `1018 sub 1`, `1018hsub01h`, `1018subindex1`: names that are a sure step from that of an object or of a
+/// What follows the word for an object, which stands apart from its index: `Index 1018`, `Object 0x1018`.
+fn without_noun(name: &[u8]) -> &[u8] {
+    let nouns = ["Index", "Idx", "Object", "Obj"].into_iter();
+    let mut behind = nouns.filter_map(|noun| strip_prefix(name, noun));
+    let index = behind.find(|rest| rest.first().is_some_and(|byte| SEPARATORS.contains(byte)));
+    index.map_or(name, without_separators)
+}
+
+/// `1018h`, `$1018`, `1018 sub 1`, `1018hsub01h`, `1018subindex1`, `Index 1018`: names that are a sure step from that of an object or of a
 /// part of it.
 #[cold]
 fn misspelt_section(name: &[u8]) -> Option<SectionKind> {
-    let (index, rest) = spelt_otherwise(name)?;
-    let rest = without_separators(rest);
+    let (index, behind) = spelt_otherwise(without_noun(name))?;
+    let mut rest = without_separators(behind);
+    if rest.len() < behind.len()
+        && let Some(behind) = strip_prefix(rest, "h")
+        && behind.first().is_none_or(|byte| SEPARATORS.contains(byte))
+    {
+        // `1018 h`
+        rest = without_separators(behind);
+    }
     let Some(rest) = strip_prefix(rest, "sub") else {
         return suffixed(Index(index), rest);
     };
@@ -413,6 +428,10 @@ mod tests {
             ("1000h", "1000"),
             ("1A00H", "1A00"),
             ("$1000", "1000"),
+            ("1000 h", "1000"),
+            ("1018 h sub1", "1018sub1"),
+            ("Index 1000", "1000"),
+            ("Object 0x1018 sub 1", "1018sub1"),
             ("x1000", "1000"),
             ("1018hsub1", "1018sub1"),
             ("1018sub01h", "1018sub1"),
@@ -461,6 +480,9 @@ mod tests {
             "Add Value",
             "1000Names",
             "1000hh",
+            "1000 hours",
+            "Index1000",
+            "Object Dictionary",
             "1018sub1x",
             "1018 subway",
             "1018-1",

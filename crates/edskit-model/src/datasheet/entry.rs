@@ -72,6 +72,13 @@ impl<'a> Entry<'a> {
         self.sheet.document.text(self.value_span())
     }
 
+    /// The same without a comment behind it; for values that are no free text.
+    pub fn text_before_comment(self) -> Cow<'a, str> {
+        let span = self.value_span();
+        let length = meant::value_length(self.raw()).unwrap_or(span.len());
+        self.sheet.document.text(span.sub(0, length))
+    }
+
     /// Whether there is no value, which counts as no entry (CiA 306 v1.3, 4.2).
     #[inline]
     pub fn is_empty(self) -> bool {

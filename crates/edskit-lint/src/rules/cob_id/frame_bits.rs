@@ -83,7 +83,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
             format!("{} has the COB-ID {cob_id}, but bit 30 of {who} is reserved", parameter.party),
         );
         finding.severity(severity);
-        let text = value.entry.text();
+        let text = value.entry.text_before_comment();
         // Where the bit can be seen in the text, it can be taken out there.
         match value.constant::<u32>() {
             Some(number) => {

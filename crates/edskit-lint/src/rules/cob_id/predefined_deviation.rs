@@ -71,7 +71,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
                         value.span(),
                         format!(
                             "{party} has the COB-ID `{}` instead of `$NODEID+0x{base:X}`",
-                            value.entry.text()
+                            value.entry.text_before_comment()
                         ),
                     )
                     .help(format!(

@@ -1,6 +1,7 @@
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Report, Severity};
-use edskit_model::Object;
+use edskit_model::{Object, SectionKind};
 use edskit_types::{Index, ObjectCode, SubIndex};
 
 rule! {
@@ -63,7 +64,7 @@ rule! {
 /// The serial number, the last member.
 const LAST: SubIndex = SubIndex(4);
 
-fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
+fn check(context: &Context<'_>, object: Object<'_>, report: &mut Report) {
     if object.index() != Index::IDENTITY {
         return;
     }
@@ -75,7 +76,8 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     if compact == 0 && object.sub_objects().len() == 0 {
         return;
     }
-    if object.dictionary_entry(SubIndex(1)).is_none() {
+    let is_hidden = || lost_header::hides(context, SectionKind::SubObject(object.index(), SubIndex(1)));
+    if object.dictionary_entry(SubIndex(1)).is_none() && !is_hidden() {
         report
             .add(object.span(), "the identity object has no vendor-ID (sub-index 01h)")
             .help("describe `[1018sub1]`, an UNSIGNED32 with access `ro`");

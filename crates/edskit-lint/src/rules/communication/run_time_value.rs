@@ -1,15 +1,16 @@
 use super::error_field::{self, Part};
 use crate::evaluate::stated;
 use crate::rule::rule;
-use crate::{Context, Edit, Report, Variable};
+use crate::{Context, Edit, Report, Severity, Variable};
 use edskit_model::KeyName;
+use edskit_types::Index;
 
 rule! {
     /// The file says which errors have happened
     ///
     /// ## What it does
     /// Reports a value other than 0 in the history of errors 1003h: the number of errors at sub-index 00h, and the errors
-    /// behind it.
+    /// behind it. In the error register 1001h it is an information.
     ///
     /// ## Why is this bad
     /// Sub-index 00h is no highest sub-index but counts the errors since power-on, which only the running device knows. A
@@ -68,21 +69,31 @@ rule! {
 }
 
 fn check(context: &Context<'_>, variable: &Variable<'_>, report: &mut Report) {
-    let Some(part) = error_field::part(variable) else { return };
+    let part = error_field::part(variable);
+    if part.is_none() && variable.index != Index::ERROR_REGISTER {
+        return;
+    }
     for value in stated(context, variable) {
         // What does not fit its type is the matter of VAL002.
         let Some(number) = value.constant::<i128>().filter(|number| *number != 0) else { continue };
         let entry = value.entry;
         let what = match part {
-            Part::Count => {
+            None => {
+                format!("the error register is {number:02X}h, but only the running device knows its errors")
+            }
+            Some(Part::Count) => {
                 format!("1003h sub-index 00h is {number}, but it counts the errors since power-on")
             }
-            Part::Error | Part::Object => format!(
+            Some(Part::Error | Part::Object) => format!(
                 "{} holds the error {number:X}h, but no error has happened at power-on",
                 variable.place()
             ),
         };
         let finding = report.add(value.span(), what);
+        if part.is_none() {
+            // A device may come up with an error each time; 1003h is empty all the same.
+            finding.severity(Severity::Info);
+        }
         if entry.key().name == KeyName::Item {
             finding.help("take it out of the list");
         } else {
@@ -114,6 +125,18 @@ mod tests {
             fixed(&RUN_TIME_VALUE, "[1003sub0]\nDataType=5\nDefaultValue=8\n"),
             "[1003sub0]\nDataType=5\nDefaultValue=0\n"
         );
+    }
+
+    #[test]
+    fn the_error_register_is_the_devices_own() {
+        let text = "[1001]\nObjectType=7\nDataType=5\nAccessType=ro\nDefaultValue=0x81\n";
+        assert_eq!(
+            findings(&RUN_TIME_VALUE, text),
+            ["5:14 info: the error register is 81h, but only the running device knows its errors"]
+        );
+        let configured = text.replace("DefaultValue=0x81", "DefaultValue=0\nParameterValue=5");
+        assert_eq!(findings_in(&RUN_TIME_VALUE, "a.dcf", configured.as_bytes()).len(), 1);
+        assert_eq!(findings(&RUN_TIME_VALUE, &text.replace("0x81", "0x00")), [""; 0]);
     }
 
     #[test]

@@ -2,9 +2,10 @@ use super::structure::{counted_subs, sub0};
 use super::words::with_article;
 use crate::edits::{add_lines, number_like};
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Edit, Report};
-use edskit_model::Object;
-use edskit_types::ObjectCode;
+use edskit_model::{Object, SectionKind};
+use edskit_types::{ObjectCode, SubIndex};
 
 rule! {
     /// Sub-index 00h is missing
@@ -62,7 +63,7 @@ rule! {
     }
 }
 
-fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
+fn check(context: &Context<'_>, object: Object<'_>, report: &mut Report) {
     if sub0(object).is_some() {
         return;
     }
@@ -75,6 +76,9 @@ fn check(_: &Context<'_>, object: Object<'_>, report: &mut Report) {
     let count = counted_subs(object).len();
     // Where nothing is described at all, that is the finding: of OBJ006, OBJ007 or OBJ008.
     if count == 0 && claimed != Some(0) {
+        return;
+    }
+    if lost_header::hides(context, SectionKind::SubObject(object.index(), SubIndex(0))) {
         return;
     }
     let section = object.section();

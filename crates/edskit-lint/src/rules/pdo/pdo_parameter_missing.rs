@@ -1,5 +1,7 @@
 use crate::rule::rule;
+use crate::rules::syntax::lost_header;
 use crate::{Context, Report};
+use edskit_model::SectionKind;
 use edskit_types::SubIndex;
 
 rule! {
@@ -87,7 +89,11 @@ fn check(context: &Context<'_>, report: &mut Report) {
         if object.sub_objects().len() == 0 && object.compact_count() == 0 {
             continue;
         }
-        let lacks = |sub_index| object.dictionary_entry(SubIndex(sub_index)).is_none();
+        let lacks = |sub_index| {
+            let sub_index = SubIndex(sub_index);
+            object.dictionary_entry(sub_index).is_none()
+                && !lost_header::hides(context, SectionKind::SubObject(object.index(), sub_index))
+        };
         let what = match (lacks(1), lacks(2)) {
             (true, true) => "neither COB-ID (sub-index 01h) nor transmission type (sub-index 02h)",
             (true, false) => "no COB-ID (sub-index 01h)",

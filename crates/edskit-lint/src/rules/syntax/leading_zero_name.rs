@@ -1,5 +1,7 @@
+use super::by_object::by_object;
 use super::repeats;
 use crate::rule::rule;
+use crate::wording::FEW;
 use crate::{Context, Edit, Report};
 use edskit_model::{Section, SectionKind};
 use std::collections::HashSet;
@@ -10,7 +12,7 @@ rule! {
     /// ## What it does
     /// Reports section names of objects and sub-objects whose numbers are written with leading zeros, `0x`, the `h` of the
     /// manuals, blanks, or another sign that does not belong there. An index below 1000h that is filled up to four digits
-    /// is left alone, because python-canopen needs four of them.
+    /// is left alone, because python-canopen needs four of them. The names of one object are one finding.
     ///
     /// ## Why is this bad
     /// Names are texts, not numbers. Many readers compare them as such, and then do not find the object.
@@ -49,25 +51,40 @@ fn check(context: &Context<'_>, report: &mut Report) {
     // A section that stands in two spellings is the matter of SYN015.
     let repeated: HashSet<SectionKind> =
         repeats::of_cia_306(context).map(|(_, again)| again.kind()).collect();
-    for section in odd.filter(|section| !repeated.contains(&section.kind())) {
-        let Some(name) = section.kind().canonical_name() else { continue };
-        let written = section.name();
-        let is_misspelt = section.kind().is_misspelt(section.name_span().slice(context.source()));
-        let message = if is_misspelt {
-            format!(
-                "the name `{written}` is more than the number{}",
-                if matches!(section.kind(), SectionKind::SubObject(..)) { "s" } else { "" }
-            )
-        } else if written.to_ascii_lowercase().contains("0x") {
-            format!("the name `{written}` has `0x`")
-        } else {
-            format!("the name `{written}` has a leading zero")
-        };
-        report
-            .add(section.name_span(), message)
-            .help(format!("write `[{name}]`"))
-            .safe_fix("Write the short name", vec![Edit::replace(section.name_span(), name)]);
+    let odd = odd.filter(|section| !repeated.contains(&section.kind()));
+    let named = odd.filter_map(|section| {
+        let name = section.kind().canonical_name()?;
+        Some((section.kind(), (section, name)))
+    });
+    for group in by_object(named) {
+        report_object(context, &group, report);
     }
+}
+
+/// Reports the odd names of one object, or that of another section.
+fn report_object(context: &Context<'_>, names: &[(Section<'_>, String)], report: &mut Report) {
+    let Some(((first, name), rest)) = names.split_first() else { return };
+    let written = first.name();
+    let what = if first.kind().is_misspelt(first.name_span().slice(context.source())) {
+        let is_sub = matches!(first.kind(), SectionKind::SubObject(..));
+        if is_sub { "is more than the numbers" } else { "is more than the number" }
+    } else if written.to_ascii_lowercase().contains("0x") {
+        "has `0x`"
+    } else {
+        "has a leading zero"
+    };
+    let more = match rest.len() {
+        0 => String::new(),
+        1 => ", and one more name of the object is as odd".to_owned(),
+        more => format!(", and {more} more names of the object are as odd"),
+    };
+    let finding = report.add(first.name_span(), format!("the name `{written}` {what}{more}"));
+    for (section, name) in rest.iter().take(FEW) {
+        finding.label(section.name_span(), format!("`[{name}]` is meant"));
+    }
+    let title = if rest.is_empty() { "Write the short name" } else { "Write the short names" };
+    let edits = names.iter().map(|(section, name)| Edit::replace(section.name_span(), name.as_str()));
+    finding.help(format!("write `[{name}]`")).safe_fix(title, edits.collect());
 }
 
 fn is_odd(context: &Context<'_>, section: Section<'_>) -> bool {
@@ -123,18 +140,37 @@ mod tests {
 
     #[test]
     fn signs_that_do_not_belong_into_a_name() {
-        let text = "[1000h]\n[1018 sub1]\n[1018hsub02h]\n[$1001]\n[1003hValue]\n";
+        let text = "[1000h]\n[1018 sub1]\n[1019hsub02h]\n[$1001]\n[1003hValue]\n";
         assert_eq!(
             findings(&LEADING_ZERO_NAME, text),
             [
                 "1:2 warning: the name `1000h` is more than the number",
                 "2:2 warning: the name `1018 sub1` is more than the numbers",
-                "3:2 warning: the name `1018hsub02h` is more than the numbers",
+                "3:2 warning: the name `1019hsub02h` is more than the numbers",
                 "4:2 warning: the name `$1001` is more than the number",
                 "5:2 warning: the name `1003hValue` is more than the number",
             ]
         );
-        assert_eq!(fixed(&LEADING_ZERO_NAME, text), "[1000]\n[1018sub1]\n[1018sub2]\n[1001]\n[1003Value]\n");
+        assert_eq!(fixed(&LEADING_ZERO_NAME, text), "[1000]\n[1018sub1]\n[1019sub2]\n[1001]\n[1003Value]\n");
+    }
+
+    #[test]
+    fn one_slip_in_all_names_of_an_object_is_one_finding() {
+        let text = "[1018h]\n[1018hsub0]\n[1018hsub1]\n[2000 h]\n[2000 h sub1]\n[Index 2001]\n[M1Fixed02000]\n[M1Fixed02000sub1]\n";
+        assert_eq!(
+            findings(&LEADING_ZERO_NAME, text),
+            [
+                "1:2 warning: the name `1018h` is more than the number, and 2 more names of the object are as odd",
+                "4:2 warning: the name `2000 h` is more than the number, and one more name of the object is as odd",
+                "6:2 warning: the name `Index 2001` is more than the number",
+                "7:2 warning: the name `M1Fixed02000` has a leading zero",
+                "8:2 warning: the name `M1Fixed02000sub1` has a leading zero",
+            ]
+        );
+        assert_eq!(
+            fixed(&LEADING_ZERO_NAME, text),
+            "[1018]\n[1018sub0]\n[1018sub1]\n[2000]\n[2000sub1]\n[2001]\n[M1Fixed2000]\n[M1Fixed2000sub1]\n"
+        );
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! SYN: the text of the file.
 
+mod by_object;
 mod byte_order_mark;
 mod comment_not_in_column_1;
 mod control_character;

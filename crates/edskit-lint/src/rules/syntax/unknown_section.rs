@@ -1,9 +1,9 @@
+use super::by_object::by_object;
 use crate::rule::rule;
 use crate::wording::FEW;
 use crate::{Context, Edit, Report, Severity};
 use edskit_model::nearest;
 use edskit_model::{Section, SectionKind};
-use edskit_types::Index;
 use std::collections::{HashMap, HashSet};
 
 rule! {
@@ -60,7 +60,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
     let mut compared = 0;
     let mut groups: HashMap<String, usize> = HashMap::new();
     let mut listed: Vec<(Section<'_>, usize)> = Vec::new();
-    let mut slips = Slips::default();
+    let mut slips = Vec::new();
     for section in context.sheet.sections().filter(|section| section.kind() == SectionKind::Unknown) {
         let name = section.name();
         // SYN006 reports headers that are not even well formed, OBJ027 sub-indices that are too large.
@@ -71,7 +71,8 @@ fn check(context: &Context<'_>, report: &mut Report) {
         if compared <= MOST_COMPARED
             && let Some(known) = suggestion(context, &name)
         {
-            slips.add(Slip { section, kind: SectionKind::of(known.as_bytes()), known });
+            let kind = SectionKind::of(known.as_bytes());
+            slips.push((kind, Slip { section, kind, known }));
             continue;
         }
         let stem = name.trim_end_matches(|c: char| c.is_ascii_digit()).to_ascii_lowercase();
@@ -81,7 +82,7 @@ fn check(context: &Context<'_>, report: &mut Report) {
             None => listed.push((section, 1)),
         }
     }
-    for group in slips.groups {
+    for group in by_object(slips) {
         misspelt(context, &group, report);
     }
     for (section, count) in listed {
@@ -95,27 +96,6 @@ struct Slip<'a> {
     /// The name that was meant, and what it is.
     known: String,
     kind: SectionKind,
-}
-
-/// The misspelt headers; those of one object are together, because one slip is often made in all of them.
-#[derive(Default)]
-struct Slips<'a> {
-    groups: Vec<Vec<Slip<'a>>>,
-    of_object: HashMap<Index, usize>,
-}
-
-impl<'a> Slips<'a> {
-    fn add(&mut self, slip: Slip<'a>) {
-        let is_of_module = matches!(slip.kind, SectionKind::Module(..));
-        let position = match slip.kind.index().filter(|_| !is_of_module) {
-            Some(index) => *self.of_object.entry(index).or_insert(self.groups.len()),
-            None => self.groups.len(),
-        };
-        match self.groups.get_mut(position) {
-            Some(group) => group.push(slip),
-            None => self.groups.push(vec![slip]),
-        }
-    }
 }
 
 /// The sections that misspelt headers mean.
@@ -264,6 +244,8 @@ fn has_large_sub_index(name: &str) -> bool {
 mod tests {
     use super::*;
     use crate::testing::{findings, fixed};
+    use crate::{FileKind, Linter, RuleSet};
+    use edskit_model::Datasheet;
 
     #[test]
     fn extensions_are_listed_once_for_each_stem() {
@@ -338,7 +320,7 @@ mod tests {
             findings(&UNKNOWN_SECTION, text),
             [
                 "2:2 warning: `[1AOO]` is not a section of CiA 306; it looks like `[1A00]`, and 2 more headers of the object are misspelt",
-                "6:2 warning: `[lA01sub1]` is not a section of CiA 306; it looks like `[1A01sub1]`",
+                "6:2 error: `[lA01sub1]` is not a section of CiA 306; it looks like `[1A01sub1]`",
                 "7:2 warning: `[1018sup1]` is not a section of CiA 306; it looks like `[1018sub1]`, and one more header of the object is misspelt",
                 "9:2 warning: `[FielInfo]` is not a section of CiA 306; it looks like `[FileInfo]`",
             ]
@@ -352,9 +334,25 @@ mod tests {
         let listed = format!("[OptionalObjects]\n1=0x1A00\n{text}");
         assert!(findings(&UNKNOWN_SECTION, &listed)[0].starts_with("4:2 error"));
         // Which of the two is meant, nobody knows.
-        let twice = "[1AOO]\n[1AOOsub1]\n[1A0Osub1]\n";
+        let twice = "[1000]\n[1AOO]\n[1AOOsub1]\n[1A0Osub1]\n";
         assert_eq!(findings(&UNKNOWN_SECTION, twice).len(), 1);
         assert_eq!(fixed(&UNKNOWN_SECTION, twice), twice);
+    }
+
+    #[test]
+    fn what_is_misspelt_is_not_missing_too() {
+        let identity = "[1018]\nObjectType=9\n[1018sub0]\nDataType=5\n[1018subl]\nDataType=7\n";
+        let pdo = "[1400]\nObjectType=9\n[1400subO]\nDataType=5\n[1400subl]\nDataType=7\n[1400sup2]\nDataType=5\n[1600]\nObjectType=9\n[1600sub0]\n";
+        let mut rules = RuleSet::none();
+        for code in ["SYN023", "COM013", "PDO026", "OBJ012", "OBJ008"] {
+            rules.select(code).unwrap();
+        }
+        let linter = Linter::new(rules);
+        for text in [identity, pdo] {
+            let found = linter.lint(&Datasheet::parse(text.as_bytes()), FileKind::Eds, None);
+            let codes: Vec<_> = found.iter().map(|finding| finding.rule.code).collect();
+            assert_eq!(codes, ["SYN023"], "{text}");
+        }
     }
 
     #[test]

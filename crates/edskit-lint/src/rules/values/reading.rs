@@ -202,7 +202,7 @@ fn is_of_data_type(entry: Entry<'_>) -> bool {
 
 /// How messages show a value: as written, and in decimal where that looks different.
 pub(super) fn shown(entry: Entry<'_>, meaning: Scalar) -> String {
-    let (text, meaning) = (entry.text(), meaning.to_string());
+    let (text, meaning) = (entry.text_before_comment(), meaning.to_string());
     if text == meaning || !matches!(entry.raw(), [b'0', b'x' | b'X', ..] | [b'-', b'0', b'x' | b'X', ..]) {
         format!("`{text}`")
     } else {
