@@ -38,6 +38,13 @@ fn counts() -> Vec<Defect> {
                 base.sections_where(|section| section.entries.iter().any(|own| own.line == entry.line));
             Some(Mutant::of(base).delete(entry.line).expect(section.first()?.header))
         }),
+        mapping("PDO013", "a compact mapping without values", |base, map| {
+            let number = base.object(map.index)?.entry("SubNumber")?;
+            let compact = format!("CompactSubObj={}\nDataType=0x0007\nAccessType=rw", map.entries.len());
+            let subs = base.sub_objects(map.index).into_iter();
+            let without_subs = subs.fold(Mutant::of(base), Mutant::delete_section);
+            Some(without_subs.rewrite(number.line, compact))
+        }),
         mapping("PDO012", "an entry behind the counted ones", |base, map| {
             let free = base.sub_object(map.index, map.entries.len() as u8 + 1)?.entry("DefaultValue")?;
             Some(Mutant::of(base).set(free, &map.entries[0].value))
