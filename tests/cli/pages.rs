@@ -1,4 +1,5 @@
-//! The examples of the pages docs/ci.md and docs/configuration.md, run as they stand there.
+//! The examples of the pages docs/ci.md and docs/configuration.md, run as they stand there, and the tests that
+//! docs/kinds-of-mistakes.md names.
 
 use edskit::Exit;
 use edskit_tests::{Folder, edskit, root};
@@ -150,4 +151,18 @@ fn the_json_of_the_page_has_the_keys_that_are_printed() {
     let printed = all(&edskit(&["lint", "--isolated", "--format", "json", "fixtures/faulty.eds"]).stdout);
     let example = fences(&page("ci.md"), "json").remove(0);
     assert_eq!(all(&example), printed);
+}
+
+#[test]
+fn the_tests_that_show_each_kind_exist() {
+    let page = page("kinds-of-mistakes.md");
+    let mut count = 0;
+    for link in page.split("[`").skip(1) {
+        let Some((name, rest)) = link.split_once("`](../") else { continue };
+        let path = rest.split(')').next().expect("a link ends");
+        let source = fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+        assert!(source.contains(&format!("fn {name}()")), "{path} has no test {name}");
+        count += 1;
+    }
+    assert!(count > 50, "{count} tests are named");
 }
