@@ -125,7 +125,8 @@ impl Wanted {
             Self::Number => number(text),
             Self::Index => index(text),
             Self::DataType => {
-                word(words::data_type(text), "a data type is given by its index").or_else(|| index(text))
+                let named = words::data_type(text).or_else(|| words::data_type_twice(text));
+                word(named, "a data type is given by its index").or_else(|| index(text))
             }
             Self::ObjectCode => {
                 word(words::object_code(text), "an object code is a number").or_else(|| number(text))

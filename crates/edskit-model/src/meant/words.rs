@@ -1,6 +1,7 @@
 //! Words where a number, or one of six other words, belongs.
 
 use crate::similar::nearest;
+use crate::value::Number;
 use edskit_types::{AccessType, DataType, ObjectCode};
 
 /// The access type that a word in use elsewhere, or a slip, stands for.
@@ -83,10 +84,35 @@ pub(super) fn data_type(word: &str) -> Option<String> {
     };
     let known = named(&dense).or_else(sized).or_else(|| match &*dense {
         "bool" => Some(DataType::Boolean),
+        // Those of IEC 61131-3; its INT and UINT are other types in C.
+        "byte" | "usint" => Some(DataType::Unsigned8),
+        "word" => Some(DataType::Unsigned16),
+        "dword" | "udint" => Some(DataType::Unsigned32),
+        "lword" | "ulint" => Some(DataType::Unsigned64),
+        "sint" => Some(DataType::Integer8),
+        "dint" => Some(DataType::Integer32),
+        "lint" => Some(DataType::Integer64),
         "string" => Some(DataType::VisibleString),
         "float" => Some(DataType::Real32),
         "double" => Some(DataType::Real64),
         _ => None,
     })?;
     Some(format!("0x{:04X}", known.index().0))
+}
+
+/// The index of a data type that is given by its index and by its name, where both agree: `0x0006 - UNSIGNED16`,
+/// `UNSIGNED16 0x0006`.
+pub(super) fn data_type_twice(text: &str) -> Option<String> {
+    let is_between = |c: char| matches!(c, ' ' | '\t' | '-' | ':' | '=' | ',');
+    let number = |text: &str| Number::parse(text.as_bytes()).ok()?.to::<u16>();
+    let agree = |index: &str, name: &str| {
+        let named = data_type(name).and_then(|named| number(&named));
+        named.is_some() && named == number(index)
+    };
+    let (first, rest) = text.split_once(is_between)?;
+    if agree(first, rest.trim_start_matches(is_between)) {
+        return Some(first.to_owned());
+    }
+    let (rest, last) = text.rsplit_once(is_between)?;
+    agree(last, rest.trim_end_matches(is_between)).then(|| last.to_owned())
 }
