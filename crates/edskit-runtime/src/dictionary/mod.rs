@@ -11,7 +11,7 @@ pub use objects::{Handle, Objects};
 pub use parts::{Dictionary, Memory, Parts};
 pub use table::{Limits, Position, Table};
 pub use value::Value;
-pub(crate) use value::{copy, raw};
+pub(crate) use value::{copy, raw, unsigned};
 
 #[cfg(test)]
 pub(crate) mod testing {

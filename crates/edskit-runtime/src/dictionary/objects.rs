@@ -164,9 +164,12 @@ impl<'a> Objects<'a> {
         if entry.data_type == DataType::Boolean && data.first().is_some_and(|byte| *byte > 1) {
             return Err(AbortCode::INVALID_VALUE);
         }
-        if !entry.flags.has(Flags::LIMITED) {
-            return Ok(());
-        }
+        // Most values have none, and each value of each RPDO is looked at.
+        if entry.flags.has(Flags::LIMITED) { self.check_limits(position, entry, data) } else { Ok(()) }
+    }
+
+    #[inline(never)]
+    fn check_limits(&self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         let Some(limits) = self.table.limits(position) else { return Ok(()) };
         let data_type = entry.data_type;
         let value = rank(data_type, raw(data, data_type.is_signed()));
@@ -182,7 +185,14 @@ impl<'a> Objects<'a> {
     /// Gives an entry these bytes, of a text as many as fit. The device itself may do so; SDO clients come by the checks
     /// first.
     pub fn store(&mut self, position: Position, data: &[u8]) {
-        let Some(entry) = self.table.entry(position) else { return };
+        if let Some(entry) = self.table.entry(position) {
+            self.put(position, entry, data);
+        }
+    }
+
+    /// The same for an entry that has been found.
+    #[inline(never)]
+    pub(crate) fn put(&mut self, position: Position, entry: &Entry, data: &[u8]) {
         if entry.has_length() {
             self.set_length(position, data.len().min(usize::from(entry.size)) as u16);
         }
