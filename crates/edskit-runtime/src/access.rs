@@ -23,61 +23,56 @@ impl<'a> Context<'a> {
         index: Index,
         sub_index: SubIndex,
     ) -> Result<(Position, &'a Entry), AbortCode> {
-        let position = self.objects.table.find(index, sub_index)?;
-        let entry = self.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
+        let position = self.node.objects.table.find(index, sub_index)?;
+        let entry = self.node.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
         if self.exists(entry) { Ok((position, entry)) } else { Err(self.absence(index)) }
     }
 
     /// What is missing where an entry of an object does not exist in the present configuration.
     fn absence(&mut self, index: Index) -> AbortCode {
-        let table = self.objects.table;
+        let table = self.node.objects.table;
         let has_entries = table.entries_of(index).any(|(_, entry)| self.exists(entry));
         if has_entries { AbortCode::SUB_INDEX_DOES_NOT_EXIST } else { AbortCode::OBJECT_DOES_NOT_EXIST }
     }
 
     /// A client is about to read an entry.
     pub(crate) fn begin_read(&mut self, entry: &Entry) -> Result<(), AbortCode> {
-        self.objects.check_read(entry)?;
+        self.node.objects.check_read(entry)?;
         if entry.index == Index::PREDEFINED_ERROR_FIELD && entry.sub_index.0 > 0 {
-            let count: u8 = self.objects.value(entry.index, 0).unwrap_or_default();
+            let count: u8 = self.node.objects.value(entry.index, 0).unwrap_or_default();
             if entry.sub_index.0 > count {
                 return Err(AbortCode::NO_DATA);
             }
         }
-        self.app.before_read(&mut self.objects, entry)
+        self.app.before_read(&mut self.node, entry)
     }
 
     /// A client writes an entry.
     pub(crate) fn write(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
-        self.app.check_write(&self.objects, entry, Some(data.len()))?;
+        self.app.check_write(&self.node, entry, Some(data.len()))?;
         self.bring(position, entry, data)?;
-        self.app.after_write(&mut self.objects, entry);
+        self.app.after_write(&mut self.node, entry);
         Ok(())
     }
 
     /// A client or an RPDO brings a value of the right length to an entry.
     pub(crate) fn bring(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
-        self.objects.check_value(position, entry, data)?;
+        self.node.objects.check_value(position, entry, data)?;
         if is_communication(entry.index) {
             return self.bring_parameter(position, entry, data);
         }
-        self.app.before_write(&mut self.objects, entry, data)?;
+        self.app.before_write(&mut self.node, entry, data)?;
         self.put(position, entry, data);
         Ok(())
     }
 
     /// The same for an entry of 1000h to 1FFFh.
     #[inline(never)]
-    fn bring_parameter(
-        &mut self,
-        position: Position,
-        entry: &Entry,
-        data: &[u8],
-    ) -> Result<(), AbortCode> {
+    fn bring_parameter(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         // Of a value that cannot be, at a time when none can, the time is said.
         self.check_change(entry, data)?;
         self.check_parameter(entry, data)?;
-        self.app.before_write(&mut self.objects, entry, data)?;
+        self.app.before_write(&mut self.node, entry, data)?;
         if is_command(entry) {
             return self.do_command(entry.index, entry.sub_index);
         }
@@ -88,13 +83,14 @@ impl<'a> Context<'a> {
     /// Gives an entry a value that has been checked, with what follows from it.
     #[inline]
     fn put(&mut self, position: Position, entry: &Entry, data: &[u8]) {
-        let is_event = self.app.write_is_event(&self.objects, entry) && self.objects.bytes(position) != data;
-        self.objects.put(position, entry, data);
+        let is_event =
+            self.app.write_is_event(&self.node, entry) && self.node.objects.bytes(position) != data;
+        self.node.objects.put(position, entry, data);
         if is_communication(entry.index) {
             self.parameter_changed(entry);
         }
         if is_event {
-            self.value_changed(position);
+            self.node.value_changed(position);
         }
     }
 
@@ -108,7 +104,7 @@ impl<'a> Context<'a> {
                 self.check_command(index, data)
             }
             Index(0x1012) => self.check_time(cob_id),
-            Index::EMCY_COB_ID => self.check_cob_id(cob_id),
+            Index::EMCY_COB_ID => self.node.check_cob_id(cob_id),
             Index::CONSUMER_HEARTBEAT if sub_index.0 > 0 => self.check_consumer(sub_index, cob_id.0),
             Index(0x1019) => check_sync_overflow(u8::from_bytes(data)),
             Index(0x1029) if sub_index.0 > 0 => check_error_behaviour(u8::from_bytes(data)),
@@ -146,7 +142,7 @@ impl<'a> Context<'a> {
         match entry.index {
             Index::SYNC_COB_ID | Index(0x1006 | 0x1019) => self.sync_changed(),
             Index(0x100C | 0x100D) => self.guarding_changed(),
-            Index::EMCY_COB_ID => self.send_emergencies(),
+            Index::EMCY_COB_ID => self.node.send_emergencies(),
             Index::CONSUMER_HEARTBEAT => self.consumer_changed(entry.sub_index),
             Index::PRODUCER_HEARTBEAT => self.heartbeat_time_changed(),
             Index(0x1200..=0x127F) => self.configure_server(entry.index),
@@ -163,10 +159,10 @@ impl<'a> Context<'a> {
     /// entries beyond the number of those that count have no meaning.
     pub(crate) fn check_present(&mut self, position: Position, entry: &Entry) -> Result<(), AbortCode> {
         let mut value = [0; 8];
-        let bytes = self.objects.bytes(position);
+        let bytes = self.node.objects.bytes(position);
         let value = value.get_mut(..bytes.len()).unwrap_or_default();
         crate::dictionary::copy(value, bytes);
-        self.objects.check_value(position, entry, value)?;
+        self.node.objects.check_value(position, entry, value)?;
         let is_mapped = matches!(Place::at(entry.index), Some((_, true)));
         if is_communication(entry.index) && !is_command(entry) && !is_mapped {
             self.check_parameter(entry, value)?;
@@ -176,13 +172,13 @@ impl<'a> Context<'a> {
 
     /// Calls `report` with every entry whose value is one that a client could not write.
     pub(crate) fn refused(&mut self, report: &mut dyn FnMut(&Entry, AbortCode)) {
-        for (position, entry) in self.objects.table.all() {
+        for (position, entry) in self.node.objects.table.all() {
             // What follows the node-ID is not known without one.
-            if self.core.node_id.is_none() || !self.exists(entry) {
+            if self.node.core.node_id.is_none() || !self.exists(entry) {
                 continue;
             }
             let is_count = matches!(Place::at(entry.index), Some((_, true))) && entry.sub_index.0 == 0;
-            let checked = match self.objects.bytes(position).first() {
+            let checked = match self.node.objects.bytes(position).first() {
                 Some(count) if is_count => self.check_parameter(entry, &[*count]),
                 _ => self.check_present(position, entry),
             };

@@ -18,9 +18,9 @@ pub(crate) fn check_error_behaviour(value: u8) -> Result<(), AbortCode> {
 impl Context<'_> {
     /// A heartbeat, the master's guarding, or the bus itself is gone.
     pub(crate) fn react_to_communication_error(&mut self) {
-        let behaviour = self.objects.value::<u8>(ERROR_BEHAVIOUR, COMMUNICATION);
+        let behaviour = self.node.objects.value::<u8>(ERROR_BEHAVIOUR, COMMUNICATION);
         match behaviour.filter(|value| check_error_behaviour(*value).is_ok()).unwrap_or(0) {
-            0 if self.core.state == NmtState::Operational => self.enter(NmtState::PreOperational),
+            0 if self.node.core.state == NmtState::Operational => self.enter(NmtState::PreOperational),
             2 => self.enter(NmtState::Stopped),
             _ => {}
         }

@@ -19,7 +19,7 @@
 //! ```
 //! use edskit_runtime::types::{AbortCode, CanId, DataType, Index, SubIndex};
 //! use edskit_runtime::{
-//!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Memory, NoStorage, Node, Objects, Parts, Position,
+//!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Memory, NoStorage, Node, Parts, Position, Services,
 //!     Settings, Table,
 //! };
 //!
@@ -56,8 +56,8 @@
 //! struct Sensor;
 //!
 //! impl Application for Sensor {
-//!     fn before_read(&mut self, objects: &mut Objects<'_>, _: &Entry) -> Result<(), AbortCode> {
-//!         objects.set(TEMPERATURE, 215);
+//!     fn before_read(&mut self, node: &mut Services<'_>, _: &Entry) -> Result<(), AbortCode> {
+//!         node.objects.set(TEMPERATURE, 215);
 //!         Ok(())
 //!     }
 //! }
@@ -101,6 +101,7 @@ mod pdo;
 mod queue;
 mod ring;
 mod sdo;
+mod services;
 mod storage;
 mod sync;
 mod time;
@@ -120,6 +121,7 @@ pub use lss::Commissioning;
 pub use node::{Node, Settings};
 pub use pdo::{Mapped, NotSent, Rpdo, Tpdo};
 pub use sdo::SdoServer;
+pub use services::Services;
 pub use storage::{NoStorage, Record, Storage, StorageError};
 pub use time::{Instant, Microseconds};
 

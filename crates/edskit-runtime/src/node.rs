@@ -1,15 +1,16 @@
 //! The node: a dictionary with all services of CiA 301 and CiA 305.
 
 use crate::context::{Context, Core};
-use crate::dictionary::{Dictionary, Position};
+use crate::dictionary::Dictionary;
 use crate::emcy::Emcy;
 use crate::guarding::Guarding;
 use crate::heartbeat::Producer;
 use crate::lss::Lss;
 use crate::queue::Queue;
+use crate::services::{Requests, Services};
 use crate::sync::Sync;
 use crate::{
-    Application, Entry, Error, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
+    Application, Entry, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
 };
 use edskit_types::{AbortCode, BitRates, IdentifierRules, NmtState, NodeId};
 
@@ -69,7 +70,7 @@ pub struct Node<D, S> {
 
 impl<D: Dictionary, S: Storage> Node<D, S> {
     /// A node that has not been powered on yet: the first [`poll`](Node::poll) does that.
-    pub fn new(dictionary: D, settings: Settings, storage: S) -> Self {
+    pub const fn new(dictionary: D, settings: Settings, storage: S) -> Self {
         let core = Core {
             settings,
             node_id: None,
@@ -81,6 +82,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             queue: Queue::new(),
             has_overrun: false,
             next_tpdo: 0,
+            requests: Requests::NONE,
             refused_values: 0,
             emcy: Emcy::new(),
             producer: Producer::OFF,
@@ -92,26 +94,15 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     }
 
     fn context<'a>(&'a mut self, now: Instant, app: &'a mut dyn Application) -> Context<'a> {
-        let parts = self.dictionary.parts();
-        Context {
-            now,
-            objects: parts.objects,
-            rpdos: parts.rpdos,
-            tpdos: parts.tpdos,
-            mapped: parts.mapped,
-            servers: parts.servers,
-            consumers: parts.consumers,
-            buffers: parts.buffers,
-            core: &mut self.core,
-            app,
-            storage: &mut self.storage,
-        }
+        Context { node: self.services(now), app }
     }
 
     /// Takes a frame from the bus. Frames before the first [`poll`](Node::poll) are lost, as before power-on.
     pub fn receive(&mut self, now: Instant, frame: &impl embedded_can::Frame, app: &mut dyn Application) {
         if self.core.has_started && !self.core.is_held {
-            self.context(now, app).receive(&Frame::of(frame));
+            let mut context = self.context(now, app);
+            context.receive(&Frame::of(frame));
+            context.do_requests();
         }
     }
 
@@ -159,48 +150,29 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
         }
     }
 
-    /// An error of the device has occurred: it is told by an EMCY message, unless it is present already. `source` tells
-    /// errors of one kind apart.
+    /// The dictionary and the services, for what the device does between the calls of the node: raise an error, trigger a
+    /// TPDO, and so on.
     ///
-    /// There is room for 32 errors of the device at once, whatever the services of the node find besides. A further one is
-    /// told each time that it is raised, and is not in the error register afterwards.
-    pub fn raise(
-        &mut self,
-        now: Instant,
-        error: Error,
-        source: u16,
-        info: [u8; 5],
-        app: &mut dyn Application,
-    ) {
-        self.context(now, app).raise(error, source, info);
-    }
-
-    /// An error of the device has gone.
-    pub fn clear(&mut self, now: Instant, error: Error, source: u16, app: &mut dyn Application) {
-        self.context(now, app).clear(error, source);
-    }
-
-    /// An event of the TPDO with this number from 1 has happened: it is sent as its transmission type says. Types that no
-    /// event sends have none.
-    pub fn trigger_tpdo(&mut self, now: Instant, number: u16) {
-        self.context(now, &mut NoApplication).tpdo_event(number);
-    }
-
-    /// The device has changed a value: an event of each TPDO that carries it. What a client or an RPDO writes is an event
-    /// where [`Application::write_is_event`] says so.
-    pub fn value_changed(&mut self, now: Instant, position: Position) {
-        self.context(now, &mut NoApplication).value_changed(position);
-    }
-
-    /// The device has changed a parameter of 1000h to 1FFFh itself: the service follows it as if a client had written it.
-    /// A value that a client could not write has no effect. Of a mapping, sub-index 00h stands for the whole.
-    pub fn parameter_changed(&mut self, now: Instant, position: Position, app: &mut dyn Application) {
-        let mut context = self.context(now, app);
-        if let Some(entry) = context.objects.table.entry(position)
-            && context.core.has_started
-            && !context.core.is_held
-        {
-            context.parameter_changed(entry);
+    /// ```
+    /// use edskit_runtime::{Dictionary, Error, Instant, Node, Storage};
+    ///
+    /// fn too_hot<D: Dictionary, S: Storage>(node: &mut Node<D, S>, now: Instant) {
+    ///     node.services(now).raise(Error { code: 0x4210, register: 1 << 3 }, 0, [0; 5]);
+    /// }
+    /// ```
+    pub fn services(&mut self, now: Instant) -> Services<'_> {
+        let parts = self.dictionary.parts();
+        Services {
+            now,
+            objects: parts.objects,
+            rpdos: parts.rpdos,
+            tpdos: parts.tpdos,
+            mapped: parts.mapped,
+            servers: parts.servers,
+            consumers: parts.consumers,
+            buffers: parts.buffers,
+            core: &mut self.core,
+            storage: &mut self.storage,
         }
     }
 

@@ -39,6 +39,12 @@ impl<T> Handle<T> {
     }
 }
 
+impl<T> From<Handle<T>> for Position {
+    fn from(handle: Handle<T>) -> Self {
+        handle.position
+    }
+}
+
 impl<T> Clone for Handle<T> {
     fn clone(&self) -> Self {
         *self

@@ -88,17 +88,17 @@ impl Context<'_> {
     pub(super) fn scatter(&mut self, number: u16, slots: Slots, mut data: u64) {
         for place in 0..slots.count {
             let place = usize::from(slots.first) + usize::from(place);
-            let Some(value) = self.mapped.get(place).copied() else { continue };
+            let Some(value) = self.node.mapped.get(place).copied() else { continue };
             let bits = data & mask(value.bits);
             data = data.checked_shr(value.bits.into()).unwrap_or(0);
             let Some(position) = value.position else { continue };
-            let Some(entry) = self.objects.table.entry(position) else { continue };
+            let Some(entry) = self.node.objects.table.entry(position) else { continue };
             let bytes = bits.to_le_bytes();
             let size = usize::from(value.bits.div_ceil(8));
             let bytes = bytes.get(..size).unwrap_or_default();
             if let Err(code) = self.bring(position, entry, bytes) {
-                self.core.refused_values = self.core.refused_values.saturating_add(1);
-                self.app.rpdo_value_refused(&mut self.objects, number, entry, code);
+                self.node.core.refused_values = self.node.core.refused_values.saturating_add(1);
+                self.app.rpdo_value_refused(&mut self.node, number, entry, code);
             }
         }
     }
@@ -110,15 +110,15 @@ impl Context<'_> {
         mapping: MappingEntry,
     ) -> Result<Mapped, AbortCode> {
         let bits = mapping.bits();
-        let granularity = self.core.settings.granularity;
+        let granularity = self.node.core.settings.granularity;
         if granularity > 1 && !bits.is_multiple_of(granularity) {
             return Err(AbortCode::NOT_MAPPABLE);
         }
         if mapping.is_dummy() {
             return self.check_dummy(direction, mapping);
         }
-        let position = self.objects.table.find(mapping.index(), mapping.sub_index())?;
-        let entry = *self.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
+        let position = self.node.objects.table.find(mapping.index(), mapping.sub_index())?;
+        let entry = *self.node.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
         if !self.exists(&entry) {
             return Err(AbortCode::OBJECT_DOES_NOT_EXIST);
         }
@@ -139,7 +139,7 @@ impl Context<'_> {
     fn check_dummy(&self, direction: PdoDirection, mapping: MappingEntry) -> Result<Mapped, AbortCode> {
         let index = mapping.index();
         let is_allowed =
-            self.objects.table.dummies.checked_shr(index.0.into()).is_some_and(|bit| bit & 1 == 1);
+            self.node.objects.table.dummies.checked_shr(index.0.into()).is_some_and(|bit| bit & 1 == 1);
         let length = DataType::from_index(index).and_then(DataType::bits);
         if direction == PdoDirection::Transmit || !is_allowed || mapping.sub_index().0 != 0 {
             return Err(AbortCode::NOT_MAPPABLE);
@@ -152,7 +152,7 @@ impl Context<'_> {
 
     /// Whether an entry exists in the present configuration.
     pub(crate) fn exists(&mut self, entry: &Entry) -> bool {
-        !entry.flags.has(Flags::OPTIONAL) || self.app.is_present(&self.objects, entry)
+        !entry.flags.has(Flags::OPTIONAL) || self.app.is_present(&self.node, entry)
     }
 
     /// What the first `count` entries of a mapping parameter make up; with `takes` each gets its place.
@@ -172,14 +172,14 @@ impl Context<'_> {
         }
         let mut bits: u8 = 0;
         for number in 0..count {
-            let entry = self.objects.value(place.mapping(), number + 1).map(MappingEntry);
+            let entry = self.node.objects.value(place.mapping(), number + 1).map(MappingEntry);
             let entry = entry.ok_or(AbortCode::SUB_INDEX_DOES_NOT_EXIST)?;
             let mapped = self.check_entry(place.direction, entry)?;
             bits = bits.saturating_add(mapped.bits);
             if bits > MOST_BITS {
                 return Err(AbortCode::PDO_LENGTH_EXCEEDED);
             }
-            let slot = self.mapped.get_mut(usize::from(slots.first) + usize::from(number));
+            let slot = self.node.mapped.get_mut(usize::from(slots.first) + usize::from(number));
             if let Some(slot) = slot.filter(|_| takes) {
                 *slot = mapped;
             }

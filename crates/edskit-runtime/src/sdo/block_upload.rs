@@ -123,7 +123,7 @@ impl Context<'_> {
 
     /// Sends as many segments of the block as the queue has room for.
     pub(super) fn send_block(&mut self, number: usize, item: &Item, upload: &mut BlockUpload) -> Step {
-        while self.core.queue.room() > 0 {
+        while self.node.core.queue.room() > 0 {
             let offset = item.offset + u32::from(upload.sent) * SEGMENT as u32;
             let mut segment = [0; SEGMENT];
             let count = self.read_item(number, item, offset, &mut segment)?;

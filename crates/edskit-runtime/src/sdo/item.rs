@@ -55,19 +55,19 @@ impl<'a> Context<'a> {
         item.offset = 0;
         if entry.data_type == DataType::Domain {
             item.origin = Origin::Domain;
-            item.length = self.app.domain_length(&mut self.objects, entry)?;
+            item.length = self.app.domain_length(&mut self.node, entry)?;
             return Ok(());
         }
         item.origin = Origin::Dictionary;
-        item.length = Some(self.objects.bytes(position).len() as u32);
+        item.length = Some(self.node.objects.bytes(position).len() as u32);
         Ok(())
     }
 
     /// Keeps a value that is not answered at once from changing while it is read.
     pub(super) fn hold_source(&mut self, number: usize, item: &mut Item) {
         let share = self.share(number);
-        let value = self.objects.bytes(item.position);
-        let buffer = self.buffers.get_mut(share).unwrap_or_default();
+        let value = self.node.objects.bytes(item.position);
+        let buffer = self.node.buffers.get_mut(share).unwrap_or_default();
         if item.origin == Origin::Dictionary && value.len() <= buffer.len() {
             item.origin = Origin::Buffer;
             copy(buffer, value);
@@ -85,11 +85,11 @@ impl<'a> Context<'a> {
         let value = match item.origin {
             Origin::Domain => {
                 let entry = self.entry_of(item)?;
-                let read = self.app.read_domain(&mut self.objects, entry, offset, segment)?;
+                let read = self.app.read_domain(&mut self.node, entry, offset, segment)?;
                 return Ok(read.min(segment.len()));
             }
             Origin::Buffer => self.buffer(number),
-            Origin::Dictionary => self.objects.bytes(item.position),
+            Origin::Dictionary => self.node.objects.bytes(item.position),
         };
         let end = value.len().min(item.length.unwrap_or_default() as usize);
         let value = value.get(offset as usize..end).unwrap_or_default();
@@ -100,7 +100,7 @@ impl<'a> Context<'a> {
     /// Opens an entry for writing so many bytes; `None` where the client does not say how many.
     pub(super) fn open_target(&mut self, item: &mut Item, announced: Option<u32>) -> Result<(), AbortCode> {
         let (position, entry) = self.open(item.index, item.sub_index)?;
-        self.app.check_write(&self.objects, entry, announced.map(|length| length as usize))?;
+        self.app.check_write(&self.node, entry, announced.map(|length| length as usize))?;
         item.position = position;
         item.origin = if entry.data_type == DataType::Domain { Origin::Domain } else { Origin::Buffer };
         item.length = announced;
@@ -114,7 +114,7 @@ impl<'a> Context<'a> {
     }
 
     pub(super) fn entry_of(&self, item: &Item) -> Result<&'a Entry, AbortCode> {
-        self.objects.table.entry(item.position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)
+        self.node.objects.table.entry(item.position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)
     }
 
     /// Takes further bytes of a value. Those of a DOMAIN go to the application at once.
@@ -123,7 +123,7 @@ impl<'a> Context<'a> {
         let offset = item.offset;
         let end = offset.saturating_add(data.len() as u32);
         if item.origin == Origin::Domain {
-            self.app.write_domain(&mut self.objects, entry, offset, data, false)?;
+            self.app.write_domain(&mut self.node, entry, offset, data, false)?;
         } else {
             if end > u32::from(entry.size) {
                 return Err(AbortCode::LENGTH_TOO_HIGH);
@@ -147,15 +147,15 @@ impl<'a> Context<'a> {
         }
         let entry = self.entry_of(item)?;
         if item.origin == Origin::Domain {
-            self.app.write_domain(&mut self.objects, entry, item.offset, &[], true)?;
-            self.app.after_write(&mut self.objects, entry);
+            self.app.write_domain(&mut self.node, entry, item.offset, &[], true)?;
+            self.app.after_write(&mut self.node, entry);
         } else {
             // The buffer leaves the context while the value is written, since hooks get the rest of it.
             let share = self.share(number);
-            let buffers = core::mem::take(&mut self.buffers);
+            let buffers = core::mem::take(&mut self.node.buffers);
             let value = buffers.get(share).and_then(|buffer| buffer.get(..item.offset as usize));
             let written = self.write(item.position, entry, value.unwrap_or_default());
-            self.buffers = buffers;
+            self.node.buffers = buffers;
             written?;
         }
         Ok(super::Next::End)
@@ -163,13 +163,13 @@ impl<'a> Context<'a> {
 
     /// Where in the buffers the part of a server lies: all parts are equal.
     fn share(&self, number: usize) -> Range<usize> {
-        let size = self.buffers.len().checked_div(self.servers.len()).unwrap_or(0);
+        let size = self.node.buffers.len().checked_div(self.node.servers.len()).unwrap_or(0);
         number * size..(number + 1) * size
     }
 
     /// The part of the buffers that belongs to a server.
     fn buffer(&mut self, number: usize) -> &mut [u8] {
         let share = self.share(number);
-        self.buffers.get_mut(share).unwrap_or_default()
+        self.node.buffers.get_mut(share).unwrap_or_default()
     }
 }

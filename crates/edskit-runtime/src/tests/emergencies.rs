@@ -1,6 +1,6 @@
 use super::device::{Builder, COB_ID, RO, RW, plain};
 use super::{Bench, frame};
-use crate::{Error, NoApplication};
+use crate::Error;
 use std::vec::Vec;
 
 fn device() -> Builder {
@@ -11,7 +11,7 @@ fn device() -> Builder {
 const HOT: Error = Error { code: 0x4210, register: 1 << 3 };
 
 fn raise(bench: &mut Bench, error: Error, source: u16) {
-    bench.node.raise(bench.now, error, source, [1, 2, 3, 4, 5], &mut NoApplication);
+    bench.node.services(bench.now).raise(error, source, [1, 2, 3, 4, 5]);
 }
 
 #[test]
@@ -23,7 +23,7 @@ fn an_error_is_told_remembered_and_cleared() {
     assert_eq!((bench.read(0x1001, 0), bench.read(0x1003, 0)), (Ok([9].into()), Ok([1].into())));
     assert_eq!(bench.read(0x1003, 1), Ok([0x10, 0x42, 1, 2].into()));
     assert_eq!(bench.read(0x1003, 2), Err(0x0800_0024));
-    bench.node.clear(bench.now, HOT, 0, &mut NoApplication);
+    bench.node.services(bench.now).clear(HOT, 0);
     assert_eq!(bench.poll(), [frame(0x85, &[0; 8])]);
     assert_eq!(bench.read(0x1001, 0), Ok([0].into()));
     assert_eq!(bench.write(0x1003, 0, &[1]), Err(0x0609_0030));
@@ -62,7 +62,7 @@ fn an_invalid_cob_id_keeps_emergencies_back() {
     assert!(bench.poll().is_empty());
     assert_eq!(bench.read(0x1001, 0), Ok([9].into()));
     bench.write(0x1014, 0, &[0x86, 0, 0, 0]).unwrap();
-    bench.node.clear(bench.now, HOT, 0, &mut NoApplication);
+    bench.node.services(bench.now).clear(HOT, 0);
     assert_eq!(bench.poll(), [frame(0x86, &[0; 8])]);
 }
 
