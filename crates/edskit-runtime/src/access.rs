@@ -17,15 +17,17 @@ use edskit_types::{AbortCode, CobId, Index, SubIndex};
 const FIRST_COMMAND: u8 = 1;
 
 impl<'a> Context<'a> {
-    /// The entry that a client asks for.
-    pub(crate) fn open(
-        &mut self,
-        index: Index,
-        sub_index: SubIndex,
-    ) -> Result<(Position, &'a Entry), AbortCode> {
-        let position = self.node.objects.table.find(index, sub_index)?;
-        let entry = self.node.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
-        if self.exists(entry) { Ok((position, entry)) } else { Err(self.absence(index)) }
+    /// The entry at a place, in the dictionary or with the device, and where it is.
+    pub(crate) fn open(&mut self, index: Index, sub_index: SubIndex) -> Result<(Position, Entry), AbortCode> {
+        let table = self.node.objects.table;
+        let found = table.find(index, sub_index);
+        let absence = match found.map(|position| (position, table.entry(position))) {
+            Ok((position, Some(entry))) if self.exists(entry) => return Ok((position, *entry)),
+            Ok(_) => self.absence(index),
+            Err(absence) => absence,
+        };
+        let entry = self.app.find(&mut self.node, index, sub_index, absence)?;
+        Ok((Position::OF_DEVICE, entry))
     }
 
     /// What is missing where an entry of an object does not exist in the present configuration.
@@ -37,13 +39,7 @@ impl<'a> Context<'a> {
 
     /// A client is about to read an entry.
     pub(crate) fn begin_read(&mut self, entry: &Entry) -> Result<(), AbortCode> {
-        self.node.objects.check_read(entry)?;
-        if entry.index == Index::PREDEFINED_ERROR_FIELD && entry.sub_index.0 > 0 {
-            let count: u8 = self.node.objects.value(entry.index, 0).unwrap_or_default();
-            if entry.sub_index.0 > count {
-                return Err(AbortCode::NO_DATA);
-            }
-        }
+        self.app.check_read(&self.node, entry)?;
         self.app.before_read(&mut self.node, entry)
     }
 
@@ -57,10 +53,13 @@ impl<'a> Context<'a> {
 
     /// A client or an RPDO brings a value of the right length to an entry.
     pub(crate) fn bring(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
-        self.node.objects.check_value(position, entry, data)?;
+        if position == Position::OF_DEVICE {
+            return self.app.write_value(&mut self.node, entry, data);
+        }
         if is_communication(entry.index) {
             return self.bring_parameter(position, entry, data);
         }
+        self.node.objects.check_value(position, entry, data)?;
         self.app.before_write(&mut self.node, entry, data)?;
         self.put(position, entry, data);
         Ok(())
@@ -69,6 +68,16 @@ impl<'a> Context<'a> {
     /// The same for an entry of 1000h to 1FFFh.
     #[inline(never)]
     fn bring_parameter(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+        let mut taken = [0; 8];
+        let data = match taken.get_mut(..data.len()) {
+            Some(taken) if !entry.data_type.is_string() => {
+                crate::dictionary::copy(taken, data);
+                self.app.adapt(&self.node, entry, taken);
+                taken
+            }
+            _ => data,
+        };
+        self.node.objects.check_value(position, entry, data)?;
         // Of a value that cannot be, at a time when none can, the time is said.
         self.check_change(entry, data)?;
         self.check_parameter(entry, data)?;
@@ -77,6 +86,9 @@ impl<'a> Context<'a> {
             return self.do_command(entry.index, entry.sub_index);
         }
         self.put(position, entry, data);
+        if let Some((place, true)) = Place::at(entry.index) {
+            self.mapping_written(place);
+        }
         Ok(())
     }
 

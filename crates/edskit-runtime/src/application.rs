@@ -1,7 +1,9 @@
 //! What a device adds to CiA 301, and where it differs.
 
 use crate::{Emergency, Entry, Error, Microseconds, Services};
-use edskit_types::{AbortCode, Bitrate, Index, NmtState, NodeId, SubIndex};
+use edskit_types::{
+    AbortCode, Bitrate, Index, NmtState, NodeId, PdoDirection, SubIndex, Transmission, TransmissionType,
+};
 
 /// The device behind a node. Every method has the behaviour of CiA 301 as its default, so a device implements what it
 /// adds, and what its manual does differently.
@@ -29,6 +31,12 @@ pub trait Application {
         Ok(())
     }
 
+    /// A number that an SDO client or an RPDO brings to an entry of 1000h to 1FFFh, before any check: what it counts as, low
+    /// byte first. The place for a manual that takes some bits of a COB-ID only, say, or rounds a time.
+    fn adapt(&mut self, node: &Services<'_>, entry: &Entry, data: &mut [u8]) {
+        let _ = (node, entry, data);
+    }
+
     /// An SDO client has written an entry.
     fn after_write(&mut self, node: &mut Services<'_>, entry: &Entry) {
         let _ = (node, entry);
@@ -41,6 +49,56 @@ pub trait Application {
     fn write_is_event(&mut self, node: &Services<'_>, entry: &Entry) -> bool {
         let _ = (node, entry);
         false
+    }
+
+    /// The entry at a place where the dictionary has none, or none in the present configuration: the device may have it
+    /// itself. So thousands of forwarded parameters need no entry each, and a sub-index can be a set of bits. Such an entry
+    /// is read and written by [`read_value`](Self::read_value) and [`write_value`](Self::write_value); it can be mapped into
+    /// PDOs as its flags say, and is not stored by the node.
+    ///
+    /// # Errors
+    /// The abort code that a client gets, `absence` by default: what the dictionary says.
+    fn find(
+        &mut self,
+        node: &mut Services<'_>,
+        index: Index,
+        sub_index: SubIndex,
+        absence: AbortCode,
+    ) -> Result<Entry, AbortCode> {
+        let _ = (node, index, sub_index);
+        Err(absence)
+    }
+
+    /// Puts the value of an entry that the device has itself into `buffer`, low byte first, and says how many bytes it has.
+    /// The buffer is that of the SDO server, or of a PDO.
+    ///
+    /// # Errors
+    /// The abort code that a client gets, by default [`AbortCode::NO_DATA`]; a PDO carries 0 then.
+    fn read_value(
+        &mut self,
+        node: &mut Services<'_>,
+        entry: &Entry,
+        buffer: &mut [u8],
+    ) -> Result<usize, AbortCode> {
+        let _ = (node, entry, buffer);
+        Err(AbortCode::NO_DATA)
+    }
+
+    /// A client or an RPDO brings a value of the right length to an entry that the device has itself.
+    ///
+    /// # Errors
+    /// The abort code that a client gets, by default [`AbortCode::CANNOT_TRANSFER`].
+    fn write_value(&mut self, node: &mut Services<'_>, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+        let _ = (node, entry, data);
+        Err(AbortCode::CANNOT_TRANSFER)
+    }
+
+    /// Whether an SDO client may read an entry that exists.
+    ///
+    /// # Errors
+    /// The abort code that the client gets; by default those of [`Services::check_read`].
+    fn check_read(&mut self, node: &Services<'_>, entry: &Entry) -> Result<(), AbortCode> {
+        node.check_read(entry)
     }
 
     /// Whether an SDO client may write so many bytes of an entry that exists; `None` while it has not said how many. The
@@ -155,6 +213,13 @@ pub trait Application {
     fn sends_at_start(&mut self, number: u16) -> bool {
         let _ = number;
         true
+    }
+
+    /// What a transmission type means for the PDOs of a direction, by default as CiA 301 says
+    /// ([`TransmissionType::meaning`]). A PDO whose type is [`Transmission::Reserved`] does not exist, and no client can
+    /// write such a type.
+    fn transmission(&mut self, direction: PdoDirection, transmission: TransmissionType) -> Transmission {
+        transmission.meaning(direction)
     }
 
     /// A SYNC message has arrived, with its counter where it has one.

@@ -8,7 +8,7 @@ use crate::pdo::Rpdo;
 use crate::queue::Queue;
 use crate::services::{Requests, Services};
 use crate::sync::Sync;
-use crate::{Application, Frame, Instant, Settings};
+use crate::{Application, Frame, Instant, Microseconds, Settings};
 use edskit_types::{CanId, NmtState, NodeId};
 
 /// The state of a node besides its dictionary.
@@ -33,6 +33,8 @@ pub(crate) struct Core {
     pub(crate) next_tpdo: u16,
     /// What the device has asked for within a call.
     pub(crate) requests: Requests,
+    /// How long the answer to the present request is held back.
+    pub(crate) answer_delay: Microseconds,
     /// How many values of RPDOs were refused.
     pub(crate) refused_values: u32,
     pub(crate) emcy: Emcy,

@@ -119,7 +119,7 @@ pub use heartbeat::HeartbeatConsumer;
 pub use led::{Leds, Pattern};
 pub use lss::Commissioning;
 pub use node::{Node, Settings};
-pub use pdo::{Mapped, NotSent, Rpdo, Tpdo};
+pub use pdo::{Mapped, NotSent, PdoPolicy, Remapping, Rpdo, Tpdo};
 pub use sdo::SdoServer;
 pub use services::Services;
 pub use storage::{NoStorage, Record, Storage, StorageError};

@@ -10,7 +10,8 @@ use crate::queue::Queue;
 use crate::services::{Requests, Services};
 use crate::sync::Sync;
 use crate::{
-    Application, Entry, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
+    Application, Entry, Frame, Instant, Leds, Microseconds, NoApplication, NotSent, Objects, Pattern,
+    PdoPolicy, Reset, Storage,
 };
 use edskit_types::{AbortCode, BitRates, IdentifierRules, NmtState, NodeId};
 
@@ -26,8 +27,13 @@ pub struct Settings {
     pub bit_rates: BitRates,
     /// Whether the node is an LSS slave (CiA 305).
     pub has_lss: bool,
+    /// Whether its SDO servers know transfers in segments. Of a device that does not, a client gets
+    /// [`AbortCode::UNKNOWN_COMMAND`] for a value of more than four bytes.
+    pub has_segmented_transfer: bool,
     /// Whether its SDO servers know block transfer, which is optional in CiA 301.
     pub has_block_transfer: bool,
+    /// How the parameters of PDOs are treated.
+    pub pdos: PdoPolicy,
     /// Mapped values have a multiple of so many bits (`Granularity` of the EDS); 0 and 1 allow any length.
     pub granularity: u8,
     /// Which identifiers the services may have (CiA 301, 7.3.5). A device whose manual allows others has rules of its own;
@@ -43,7 +49,9 @@ impl Settings {
         starts_by_itself: false,
         bit_rates: BitRates::ALL,
         has_lss: true,
+        has_segmented_transfer: true,
         has_block_transfer: true,
+        pdos: PdoPolicy::CIA_301,
         granularity: 1,
         identifiers: &IdentifierRules::CIA_301,
     };
@@ -83,6 +91,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             has_overrun: false,
             next_tpdo: 0,
             requests: Requests::NONE,
+            answer_delay: Microseconds(0),
             refused_values: 0,
             emcy: Emcy::new(),
             producer: Producer::OFF,

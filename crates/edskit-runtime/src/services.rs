@@ -6,7 +6,7 @@ use crate::heartbeat::HeartbeatConsumer;
 use crate::pdo::{Mapped, Rpdo, Tpdo};
 use crate::ring::Ring;
 use crate::sdo::SdoServer;
-use crate::{Handle, Instant, Objects, Position, Reset, Storage, Value};
+use crate::{Entry, Handle, Instant, Microseconds, Objects, Position, Reset, Storage, Value};
 use edskit_types::{AbortCode, CanId, CobId, Index, NmtState, NodeId};
 
 /// The node, as a device has it while the node calls it, and by [`Node::services`](crate::Node::services) between the calls:
@@ -67,6 +67,27 @@ impl Services<'_> {
     #[must_use]
     pub fn node_id(&self) -> Option<NodeId> {
         self.core.node_id
+    }
+
+    /// Whether an SDO client may read an entry now. The places of the history 1003h that no error has taken hold nothing.
+    ///
+    /// # Errors
+    /// [`AbortCode::WRITE_ONLY`], and [`AbortCode::NO_DATA`] for such a place (CiA 301 v4.2, 7.5.2.4).
+    pub fn check_read(&self, entry: &Entry) -> Result<(), AbortCode> {
+        self.objects.check_read(entry)?;
+        if entry.index == Index::PREDEFINED_ERROR_FIELD && entry.sub_index.0 > 0 {
+            let count: u8 = self.objects.value(entry.index, 0).unwrap_or_default();
+            if entry.sub_index.0 > count {
+                return Err(AbortCode::NO_DATA);
+            }
+        }
+        Ok(())
+    }
+
+    /// What the device has begun to do within this call takes so long: an SDO client that has asked for it gets its answer
+    /// then, and not before. Meanwhile its server takes no other request.
+    pub fn answer_after(&mut self, time: Microseconds) {
+        self.core.answer_delay = time;
     }
 
     /// Gives an entry a value; where it is another one than before, that is an event of each TPDO that carries the entry.

@@ -1,10 +1,12 @@
 //! What the parameters of PDOs can be set to, and what follows (CiA 301 v4.2, 7.5.2.35 to 7.5.2.38).
 
 use super::mapping::Slots;
-use super::{MOST_ENTRIES, Parameters, Place, Rpdo, Tpdo, sub};
+use super::{MOST_ENTRIES, Parameters, PdoPolicy, Place, Remapping, Rpdo, Tpdo, sub};
 use crate::Value;
 use crate::context::Context;
-use edskit_types::{AbortCode, CanId, CobId, MappingEntry, PdoDirection, SubIndex, TransmissionType};
+use edskit_types::{
+    AbortCode, CanId, CobId, MappingEntry, PdoDirection, SubIndex, Transmission, TransmissionType,
+};
 
 impl Context<'_> {
     /// Takes the configuration of all PDOs from the dictionary.
@@ -63,15 +65,15 @@ impl Context<'_> {
         self.at_work(place).map_or(Slots::NONE, |parameters| parameters.slots)
     }
 
-    fn transmission_of(&self, place: Place) -> TransmissionType {
+    fn meaning_of(&mut self, place: Place) -> Transmission {
         let transmission = self.node.objects.value(place.communication(), sub::TRANSMISSION_TYPE);
-        TransmissionType(transmission.unwrap_or(0xFF))
+        self.app.transmission(place.direction, TransmissionType(transmission.unwrap_or(0xFF)))
     }
 
     /// The identifier of a PDO that exists.
-    fn can_id_of(&self, place: Place) -> Option<CanId> {
+    fn can_id_of(&mut self, place: Place) -> Option<CanId> {
         let can_id = self.node.valid_can_id(place.communication(), sub::COB_ID)?;
-        (!self.transmission_of(place).is_reserved(place.direction)).then_some(can_id)
+        (self.meaning_of(place) != Transmission::Reserved).then_some(can_id)
     }
 
     /// What follows from the parameters of a PDO: it takes them over, and what is left of the data, times and errors that
@@ -79,10 +81,14 @@ impl Context<'_> {
     pub(crate) fn pdo_changed(&mut self, place: Place, is_remapped: bool) {
         let index = place.communication();
         let cob_id = self.node.objects.value(index, sub::COB_ID).map_or(CobId(CobId::BIT_31), CobId);
-        let (can_id, transmission) = (self.can_id_of(place), self.transmission_of(place));
+        let (can_id, meaning) = (self.can_id_of(place), self.meaning_of(place));
         let event_time = self.node.objects.value(index, sub::EVENT_TIMER).unwrap_or_default();
         let Some(old) = self.at_work(place).copied() else { return };
-        let mut new = Parameters { can_id, allows_rtr: !cob_id.bit30(), transmission, event_time, ..old };
+        let policy = self.node.core.settings.pdos;
+        let allows_rtr = !cob_id.bit30() && policy.answers_requests;
+        let mut new = Parameters { can_id, allows_rtr, meaning, event_time, ..old };
+        // Where writes make it invalid, its entries may be others when it is valid again.
+        let is_remapped = is_remapped || policy.remapping == Remapping::Invalidates && old.can_id.is_none();
         if is_remapped {
             let count = self.node.objects.value(place.mapping(), 0).unwrap_or_default();
             let mapped = self.map(place, old.slots, count, true);
@@ -108,7 +114,7 @@ impl Context<'_> {
 
     /// What a communication parameter can be set to.
     pub(crate) fn check_communication(
-        &self,
+        &mut self,
         place: Place,
         sub_index: SubIndex,
         data: &[u8],
@@ -116,7 +122,10 @@ impl Context<'_> {
         let value = u32::from_bytes(data);
         let is_right = match sub_index.0 {
             sub::COB_ID => return self.node.check_cob_id(CobId(value)),
-            sub::TRANSMISSION_TYPE => !TransmissionType(value as u8).is_reserved(place.direction),
+            sub::TRANSMISSION_TYPE => {
+                let meaning = self.app.transmission(place.direction, TransmissionType(value as u8));
+                meaning != Transmission::Reserved
+            }
             sub::SYNC_START => is_sync_start(value as u8),
             _ => true,
         };
@@ -126,17 +135,32 @@ impl Context<'_> {
     /// A communication parameter is about to be written: identifier, frame bit, inhibit time and SYNC start value cannot
     /// change while the PDO exists.
     pub(crate) fn check_communication_change(
-        &self,
+        &mut self,
         place: Place,
         sub_index: SubIndex,
         new: CobId,
     ) -> Result<(), AbortCode> {
-        let Some(can_id) = self.can_id_of(place) else { return Ok(()) };
+        let PdoPolicy { remapping, times_change_live, .. } = self.node.core.settings.pdos;
+        let Some(can_id) = self.can_id_of(place) else {
+            let is_checked_now = remapping == Remapping::Invalidates && new.is_valid();
+            return if is_checked_now && sub_index.0 == sub::COB_ID {
+                self.check_whole_mapping(place)
+            } else {
+                Ok(())
+            };
+        };
         match sub_index.0 {
             sub::COB_ID if new.is_valid() && new.can_id() != can_id => Err(AbortCode::INVALID_VALUE),
-            sub::INHIBIT_TIME | sub::SYNC_START => Err(AbortCode::DEVICE_STATE),
+            sub::INHIBIT_TIME | sub::SYNC_START if !times_change_live => Err(AbortCode::DEVICE_STATE),
             _ => Ok(()),
         }
+    }
+
+    /// Whether the mapping in the dictionary can be carried.
+    fn check_whole_mapping(&mut self, place: Place) -> Result<(), AbortCode> {
+        let slots = self.slots_of(place);
+        let count = self.node.objects.value(place.mapping(), 0).unwrap_or_default();
+        self.map(place, slots, count, false).map(|_| ())
     }
 
     /// What a mapping parameter can be set to: an entry that can be carried, and a number of such entries that fit.
@@ -146,6 +170,10 @@ impl Context<'_> {
         sub_index: SubIndex,
         data: &[u8],
     ) -> Result<(), AbortCode> {
+        if self.node.core.settings.pdos.remapping == Remapping::Invalidates {
+            let is_too_high = sub_index.0 == 0 && u8::from_bytes(data) > self.slots_of(place).capacity;
+            return if is_too_high { Err(AbortCode::PDO_LENGTH_EXCEEDED) } else { Ok(()) };
+        }
         if sub_index.0 == 0 {
             let slots = self.slots_of(place);
             return self.map(place, slots, u8::from_bytes(data), false).map(|_| ());
@@ -156,10 +184,30 @@ impl Context<'_> {
         }
     }
 
+    /// A client or an RPDO has written a mapping parameter. Where that makes the PDO invalid, it is now.
+    pub(crate) fn mapping_written(&mut self, place: Place) {
+        if self.node.core.settings.pdos.remapping == Remapping::Invalidates {
+            let index = place.communication();
+            let cob_id = self.node.objects.value(index, sub::COB_ID).unwrap_or(0);
+            self.node.objects.set_value(index, sub::COB_ID, cob_id | CobId::BIT_31);
+            self.pdo_changed(place, true);
+        }
+    }
+
     /// A mapping parameter is about to be written: the PDO must not exist, an entry only while none counts.
-    pub(crate) fn check_mapping_change(&self, place: Place, sub_index: SubIndex) -> Result<(), AbortCode> {
+    pub(crate) fn check_mapping_change(
+        &mut self,
+        place: Place,
+        sub_index: SubIndex,
+    ) -> Result<(), AbortCode> {
+        if self.node.core.settings.pdos.remapping == Remapping::Invalidates {
+            return Ok(());
+        }
+        if self.can_id_of(place).is_some() {
+            return Err(AbortCode::UNSUPPORTED_ACCESS);
+        }
         let counts = || self.node.objects.value::<u8>(place.mapping(), 0).unwrap_or_default() > 0;
-        if self.can_id_of(place).is_some() || (sub_index.0 > 0 && counts()) {
+        if sub_index.0 > 0 && counts() {
             return Err(AbortCode::UNSUPPORTED_ACCESS);
         }
         Ok(())

@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::dictionary::raw;
 use crate::time::Timer;
 use crate::{Error, Frame, Instant};
-use edskit_types::{CanId, NmtState, PdoDirection};
+use edskit_types::{CanId, NmtState, Transmission};
 
 /// An RPDO at work.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ impl Context<'_> {
             self.shortness_found(place, false, 0);
             return;
         }
-        if !new.transmission.is_synchronous(PdoDirection::Receive) {
+        if new.meaning != Transmission::Synchronous {
             rpdo.waiting = None;
         }
         if new.event_time != old.event_time {
@@ -102,13 +102,13 @@ impl Context<'_> {
 
     fn take(&mut self, place: usize, frame: &Frame) {
         let Some(Rpdo { parameters, .. }) = self.node.rpdos.get(place) else { return };
-        let Parameters { number, slots, transmission, .. } = *parameters;
+        let Parameters { number, slots, meaning, .. } = *parameters;
         let Some(data) = frame.data().get(..slots.bytes()) else {
             self.shortness_found(place, true, frame.data().len() as u8);
             return;
         };
         let data = raw(data, false);
-        let is_synchronous = transmission.is_synchronous(PdoDirection::Receive);
+        let is_synchronous = meaning == Transmission::Synchronous;
         let is_in_time = !is_synchronous || !self.window_has_passed();
         let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         rpdo.deadline = Timer::after(self.node.now, rpdo.parameters.event_time());

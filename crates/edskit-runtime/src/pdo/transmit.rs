@@ -1,13 +1,13 @@
 //! TPDOs: when they are sent, and why they are not.
 
 use super::Parameters;
-use super::mapping::{bit_of, gather};
+use super::mapping::bit_of;
 use crate::context::Context;
 use crate::dictionary::Position;
 use crate::services::Services;
 use crate::time::Timer;
 use crate::{Instant, Microseconds};
-use edskit_types::{CanId, NmtState, PdoDirection, Transmission};
+use edskit_types::{CanId, NmtState, Transmission};
 
 /// A TPDO at work.
 #[derive(Clone, Copy, Debug)]
@@ -50,9 +50,8 @@ impl Tpdo {
         sample: None,
     };
 
-    #[inline(never)]
     fn meaning(&self) -> Transmission {
-        self.parameters.transmission.meaning(PdoDirection::Transmit)
+        self.parameters.meaning
     }
 
     fn is_event_driven(&self) -> bool {
@@ -321,7 +320,7 @@ impl Context<'_> {
         if self.node.core.state != NmtState::Operational {
             return;
         }
-        // Bit 30 of the COB-ID forbids remote requests.
+        // Bit 30 of the COB-ID forbids remote requests, or the device does.
         let is_asked = |tpdo: &Tpdo| {
             tpdo.is_usable() && tpdo.parameters.allows_rtr && tpdo.parameters.can_id == Some(can_id)
         };
@@ -346,7 +345,7 @@ impl Context<'_> {
                 let _ = self.app.before_read(&mut self.node, entry);
             }
         }
-        gather(&self.node.objects, slots.of(self.node.mapped))
+        self.gather_values(slots)
     }
 
     /// Sends a TPDO, with the data of its SYNC message where there are any; false where the queue has no room.

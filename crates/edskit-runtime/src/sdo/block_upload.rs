@@ -47,7 +47,7 @@ impl Context<'_> {
         request: &Request,
     ) -> Step {
         let [command, _, _, _, block_size, threshold, ..] = *request;
-        self.open_source(&mut session.item)?;
+        self.open_source(number, &mut session.item)?;
         check_block_size(block_size)?;
         let item = &mut session.item;
         if threshold > 0 && item.length.is_some_and(|length| length <= threshold.into()) {

@@ -8,7 +8,7 @@ mod upload;
 
 use crate::context::Context;
 use crate::time::Timer;
-use crate::{Frame, Instant, MOST_DATA, Microseconds};
+use crate::{Entry, Frame, Instant, MOST_DATA, Microseconds};
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
 use edskit_types::{AbortCode, CanId, CobId, Index, NodeId, SubIndex};
@@ -45,19 +45,25 @@ pub struct SdoServer {
     /// The identifiers of requests and responses; `None` while it is not in use.
     can_ids: Option<(CanId, CanId)>,
     session: Session,
-    /// A response for which the queue has had no room yet.
+    /// A response for which the queue has had no room yet, or whose time has not come.
     response: Option<Request>,
+    /// When it may be sent: runs while the device works on the request.
+    held: Timer,
 }
 
 impl SdoServer {
     /// A place for a server.
-    pub const NEW: Self = Self { index: DEFAULT, can_ids: None, session: Session::NONE, response: None };
+    pub const NEW: Self =
+        Self { index: DEFAULT, can_ids: None, session: Session::NONE, response: None, held: Timer::OFF };
 
     pub(crate) fn takes(&self, can_id: CanId) -> bool {
         self.can_ids.is_some_and(|(request, _)| request == can_id)
     }
 
     pub(crate) fn deadline(&self, has_room: bool) -> Instant {
+        if self.held.is_running() {
+            return self.held.deadline();
+        }
         if has_room && (self.session.is_sending() || self.response.is_some()) {
             return Instant::default();
         }
@@ -212,7 +218,13 @@ impl Context<'_> {
     /// A frame for a server.
     pub(crate) fn sdo_request(&mut self, number: usize, frame: &Frame) {
         let (true, Some(request)) = (self.node.is_communicating(), frame.eight()) else { return };
-        let Some(mut session) = self.node.servers.get(number).map(|server| server.session) else { return };
+        let Some(server) = self.node.servers.get(number) else { return };
+        if server.held.is_running() {
+            return;
+        }
+        let mut session = server.session;
+        // What another call has left is not about this request.
+        self.node.core.answer_delay = Microseconds(0);
         let step = self.answer_request(number, &mut session, &request);
         self.settle(number, session, step);
     }
@@ -243,7 +255,7 @@ impl Context<'_> {
             _ => {
                 self.break_off(session);
                 session.transfer = Transfer::None;
-                (session.item.index, session.item.sub_index) = place_of(request);
+                (session.item.entry.index, session.item.entry.sub_index) = place_of(request);
                 self.begin_transfer(number, session, request)
             }
         }
@@ -266,7 +278,7 @@ impl Context<'_> {
     fn settle(&mut self, number: usize, mut session: Session, step: Step) {
         if let Err(code) = step {
             self.break_off(&session);
-            let Item { index, sub_index, .. } = session.item;
+            let Entry { index, sub_index, .. } = session.item.entry;
             let code = self.app.abort_code(code, index, sub_index);
             self.answer_about(number, ABORT, &session.item, code.0.to_le_bytes());
         }
@@ -285,14 +297,17 @@ impl Context<'_> {
         if server.response.replace(data).is_some() {
             self.node.core.queue.note_loss();
         }
+        server.held = Timer::after(self.node.now, core::mem::take(&mut self.node.core.answer_delay));
         self.send_response(number);
     }
 
     fn send_response(&mut self, number: usize) {
         let Some(server) = self.node.servers.get_mut(number) else { return };
-        if self.node.core.queue.room() == 0 {
+        if self.node.core.queue.room() == 0 || server.held.is_running() && !server.held.is_due(self.node.now)
+        {
             return;
         }
+        server.held = Timer::OFF;
         if let (Some(data), Some((_, can_id))) = (server.response.take(), server.can_ids) {
             self.node.core.queue.send(can_id, &data);
         }
@@ -301,9 +316,9 @@ impl Context<'_> {
     /// Answers with a message that names the value and holds four more bytes.
     #[inline(never)]
     fn answer_about(&mut self, number: usize, command: u8, item: &Item, data: [u8; 4]) {
-        let [low, high] = item.index.0.to_le_bytes();
+        let [low, high] = item.entry.index.0.to_le_bytes();
         let [a, b, c, d] = data;
-        self.respond(number, [command, low, high, item.sub_index.0, a, b, c, d]);
+        self.respond(number, [command, low, high, item.entry.sub_index.0, a, b, c, d]);
     }
 
     /// Sends what is left of responses and blocks, and ends transfers whose client is silent.
@@ -335,14 +350,15 @@ impl Context<'_> {
         let Some(server) = self.node.servers.get_mut(number) else { return };
         let session = core::mem::replace(&mut server.session, Session::NONE);
         server.response = None;
+        server.held = Timer::OFF;
         self.break_off(&session);
     }
 
     /// A transfer ends before its time: the application is told where it has got a part of a DOMAIN.
     fn break_off(&mut self, session: &Session) {
         let is_download = matches!(session.transfer, Transfer::Download { .. } | Transfer::BlockDownload(_));
-        if is_download && let Some(entry) = self.domain_of(&session.item) {
-            self.app.domain_broken_off(&mut self.node, entry, session.item.offset);
+        if is_download && session.item.is_domain() {
+            self.app.domain_broken_off(&mut self.node, &session.item.entry, session.item.offset);
         }
     }
 }
