@@ -83,7 +83,7 @@ impl<'a> Context<'a> {
         self.check_parameter(entry, data)?;
         self.app.before_write(&mut self.node, entry, data)?;
         if is_command(entry) {
-            return self.do_command(entry.index, entry.sub_index);
+            return self.do_command(entry);
         }
         self.put(position, entry, data);
         if let Some((place, true)) = Place::at(entry.index) {

@@ -1,6 +1,6 @@
 //! What a device adds to CiA 301, and where it differs.
 
-use crate::{Emergency, Entry, Error, Microseconds, Services};
+use crate::{Commissioning, Emergency, Entry, Error, LssAnswer, LssRequest, Microseconds, Record, Services};
 use edskit_types::{
     AbortCode, Bitrate, Index, NmtState, NodeId, PdoDirection, SubIndex, Transmission, TransmissionType,
 };
@@ -185,6 +185,62 @@ pub trait Application {
     /// The NMT state has changed.
     fn state_changed(&mut self, node: &mut Services<'_>, from: NmtState, to: NmtState) {
         let _ = (node, from, to);
+    }
+
+    /// Node-ID and bit rate that count from now on: asked at power-on and with every reset, before the dictionary gets its
+    /// values. `configured` is what LSS has configured, or at power-on what it has stored, or else the settings; a device
+    /// that keeps them elsewhere, in switches or objects of its own, says so here. A bit rate other than the configured one
+    /// is brought by [`activate_bit_rate`](Self::activate_bit_rate) at once.
+    fn commissioning(
+        &mut self,
+        node: &mut Services<'_>,
+        configured: Commissioning,
+        reset: Reset,
+    ) -> Commissioning {
+        let _ = (node, reset);
+        configured
+    }
+
+    /// An LSS master asks for something: who does it, or whether it is refused. By default the node does everything that
+    /// CiA 305 describes.
+    fn lss(&mut self, node: &mut Services<'_>, request: LssRequest) -> LssAnswer {
+        let _ = (node, request);
+        LssAnswer::ByNode
+    }
+
+    /// Whether the node goes to operational by itself after it has booted up; `prescribed` is what 1F80h says, or else the
+    /// settings.
+    fn starts_by_itself(&mut self, node: &mut Services<'_>, prescribed: bool) -> bool {
+        let _ = node;
+        prescribed
+    }
+
+    /// A client has written the signature into a sub-index of 1010h or 1011h: whether the node carries the command out. A
+    /// device whose manual wants it otherwise does it here, by [`Services::save`] and [`Services::forget`] say, and returns
+    /// false.
+    ///
+    /// # Errors
+    /// The abort code that the client gets.
+    fn storage_command(&mut self, node: &mut Services<'_>, entry: &Entry) -> Result<bool, AbortCode> {
+        let _ = (node, entry);
+        Ok(true)
+    }
+
+    /// The memory has failed, or a record in it is torn: at power-on and resets, with 1010h and 1011h, or with LSS.
+    fn storage_failed(&mut self, node: &mut Services<'_>, record: Record) {
+        let _ = (node, record);
+    }
+
+    /// What follows from a serious error of communication: the guarding by the master or the heartbeat of another node is
+    /// missing ([`Error::HEARTBEAT`]), or the bus is off ([`Error::BUS_OFF`]). `prescribed` is what 1029h sub-index 01h says.
+    fn reaction(
+        &mut self,
+        node: &mut Services<'_>,
+        error: Error,
+        prescribed: Option<NmtState>,
+    ) -> Option<NmtState> {
+        let _ = (node, error);
+        prescribed
     }
 
     /// The node is being reset; the values are those of power-on already, for communication resets those of 1000h to

@@ -8,7 +8,7 @@ use crate::pdo::Rpdo;
 use crate::queue::Queue;
 use crate::services::{Requests, Services};
 use crate::sync::Sync;
-use crate::{Application, Frame, Instant, Microseconds, Settings};
+use crate::{Application, BusState, Frame, Instant, Microseconds, Settings};
 use edskit_types::{CanId, NmtState, NodeId};
 
 /// The state of a node besides its dictionary.
@@ -29,6 +29,8 @@ pub(crate) struct Core {
     pub(crate) queue: Queue,
     /// Whether frames were being lost when that was looked at last.
     pub(crate) has_overrun: bool,
+    /// What the CAN controller tells of the bus.
+    pub(crate) bus_state: BusState,
     /// The TPDO for which the queue had no room, counted from 0: it is the next one.
     pub(crate) next_tpdo: u16,
     /// What the device has asked for within a call.

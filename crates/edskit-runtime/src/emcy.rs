@@ -33,6 +33,9 @@ impl Error {
     pub const ERROR_PASSIVE: Self = Self { code: 0x8120, register: Self::COMMUNICATION };
     /// 8130h: a heartbeat or the guarding by the master is missing.
     pub const HEARTBEAT: Self = Self { code: 0x8130, register: Self::COMMUNICATION };
+    /// 8100h: the bus is off. It cannot be told by a message, and so is none of those that are listed; devices are told of it
+    /// ([`Application::reaction`](crate::Application::reaction)).
+    pub const BUS_OFF: Self = Self { code: 0x8100, register: Self::COMMUNICATION };
     /// 8140h: the CAN controller has recovered from bus-off.
     pub const BUS_OFF_RECOVERED: Self = Self { code: 0x8140, register: Self::COMMUNICATION };
     /// 8210h: an RPDO was shorter than its mapping.
@@ -117,11 +120,12 @@ impl Emcy {
     }
 
     /// What the red indicator shows: of several errors the one that stands first here.
-    pub(crate) fn pattern(&self) -> Pattern {
+    pub(crate) fn pattern(&self, bus_has_errors: bool) -> Pattern {
         let has = |error: Error| self.present.iter().any(|present| present.error == error);
         if self.missing > 0 || has(Error::HEARTBEAT) {
             Pattern::DoubleFlash
-        } else if self.overruns > 0 || has(Error::ERROR_PASSIVE) || has(Error::CAN_OVERRUN) {
+        } else if bus_has_errors || self.overruns > 0 || has(Error::ERROR_PASSIVE) || has(Error::CAN_OVERRUN)
+        {
             Pattern::SingleFlash
         } else {
             Pattern::Off
@@ -205,7 +209,11 @@ impl Services<'_> {
 
     /// The identifier of the message; `None` where 1014h is not valid or names one that cannot be used.
     fn emcy_can_id(&self) -> Option<CanId> {
-        self.valid_can_id(Index::EMCY_COB_ID, 0)
+        let has_object = self.objects.value::<u32>(Index::EMCY_COB_ID, 0).is_some();
+        if has_object || !self.core.settings.sends_emergencies {
+            return self.valid_can_id(Index::EMCY_COB_ID, 0);
+        }
+        self.core.node_id.and_then(|node_id| CanId::standard(0x80 + u16::from(node_id.get())))
     }
 
     /// Until when no message may be sent: 1015h, as it is now, after the last one.

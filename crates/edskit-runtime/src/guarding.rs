@@ -80,7 +80,7 @@ impl Context<'_> {
         if self.node.core.guarding.life.is_due(self.node.now) {
             self.node.core.guarding.life = Timer::OFF;
             self.master_found(true);
-            self.react_to_communication_error();
+            self.react_to_communication_error(Error::HEARTBEAT);
         }
     }
 }

@@ -158,7 +158,7 @@ impl Context<'_> {
             let was_missing = core::mem::replace(&mut consumer.is_missing, true);
             self.found(Error::HEARTBEAT, was_missing, true, [node_id.get(), 0, 0, 0, 0]);
             self.app.remote_state(&mut self.node, node_id, None);
-            self.react_to_communication_error();
+            self.react_to_communication_error(Error::HEARTBEAT);
         }
     }
 }

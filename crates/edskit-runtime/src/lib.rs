@@ -84,6 +84,7 @@ extern crate std;
 
 mod access;
 mod application;
+mod bus_state;
 mod context;
 mod crc;
 mod device;
@@ -108,6 +109,7 @@ mod time;
 mod time_stamp;
 
 pub use application::{Application, NoApplication, Reset, TimeOfDay};
+pub use bus_state::BusState;
 pub use crc::Crc;
 pub use device::{Device, NodeDevice};
 pub use dictionary::{
@@ -117,7 +119,7 @@ pub use emcy::{Emergency, Error};
 pub use frame::{Frame, MOST_DATA};
 pub use heartbeat::HeartbeatConsumer;
 pub use led::{Leds, Pattern};
-pub use lss::Commissioning;
+pub use lss::{Commissioning, LssAnswer, LssRequest};
 pub use node::{Node, Settings};
 pub use pdo::{Mapped, NotSent, PdoPolicy, Remapping, Rpdo, Tpdo};
 pub use sdo::SdoServer;

@@ -93,6 +93,38 @@ impl Commissioning {
     }
 }
 
+/// What an LSS master asks a node for that the device may do, or refuse, itself (CiA 305 v2.2).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LssRequest {
+    /// To enter the configuration state: switch mode global or selective. A refusal is not told to the master.
+    Configuration,
+    /// To have this node-ID from the next reset on; `None` for none (255).
+    NodeId(Option<NodeId>),
+    /// To have a bit rate: its index in a table of bit rates, 0 for that of CiA 305, others for those of the manufacturer.
+    BitRate {
+        /// The table.
+        table: u8,
+        /// The index.
+        index: u8,
+    },
+    /// To use the configured bit rate after so many milliseconds, and to be silent as long again. There is no answer.
+    ActivateBitRate(u16),
+    /// To store what is configured.
+    Store(Commissioning),
+}
+
+/// Who does what an LSS master asks for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LssAnswer {
+    /// The node, as CiA 305 says.
+    ByNode,
+    /// The device has done it; the master is told success.
+    Done,
+    /// Nobody: the master is told this error code, 1 for a value that is out of range or not supported, 2 for a failure of
+    /// the memory, 255 for an error of the manufacturer.
+    Refused(u8),
+}
+
 impl Lss {
     pub(crate) const fn new() -> Self {
         Self { is_in_configuration: false, selected: 0, identified: 0, scanned: 0, bit_rate: None }
@@ -135,28 +167,55 @@ impl Context<'_> {
     fn configure_by_lss(&mut self, code: u8, b1: u8, b2: u8) {
         match code {
             command::CONFIGURE_NODE_ID => {
-                let is_right = b1 == UNCONFIGURED || NodeId::new(b1).is_ok();
-                if is_right {
-                    self.node.core.pending_node_id = NodeId::new(b1).ok();
+                let node_id = NodeId::new(b1).ok();
+                if node_id.is_none() && b1 != UNCONFIGURED {
+                    return self.answer([code, 1, 0, 0, 0, 0, 0, 0]);
                 }
-                self.answer([code, u8::from(!is_right), 0, 0, 0, 0, 0, 0]);
+                let error = match self.app.lss(&mut self.node, LssRequest::NodeId(node_id)) {
+                    LssAnswer::Refused(error) => error,
+                    LssAnswer::Done => 0,
+                    LssAnswer::ByNode => {
+                        self.node.core.pending_node_id = node_id;
+                        0
+                    }
+                };
+                self.answer([code, error, 0, 0, 0, 0, 0, 0]);
             }
             command::CONFIGURE_BIT_TIMING => {
-                let bit_rate = Bitrate::from_lss_index(b2);
-                let bit_rates = self.node.core.settings.bit_rates;
-                let supported = bit_rate.filter(|bit_rate| b1 == 0 && bit_rates.has(*bit_rate));
-                if supported.is_some() {
-                    self.node.core.lss.bit_rate = supported;
-                }
-                self.answer([code, u8::from(supported.is_none()), 0, 0, 0, 0, 0, 0]);
+                let error = match self.app.lss(&mut self.node, LssRequest::BitRate { table: b1, index: b2 }) {
+                    LssAnswer::Refused(error) => error,
+                    LssAnswer::Done => 0,
+                    LssAnswer::ByNode => {
+                        let bit_rates = self.node.core.settings.bit_rates;
+                        let bit_rate = Bitrate::from_lss_index(b2);
+                        let supported = bit_rate.filter(|bit_rate| b1 == 0 && bit_rates.has(*bit_rate));
+                        if supported.is_some() {
+                            self.node.core.lss.bit_rate = supported;
+                        }
+                        u8::from(supported.is_none())
+                    }
+                };
+                self.answer([code, error, 0, 0, 0, 0, 0, 0]);
             }
             command::ACTIVATE_BIT_TIMING => {
-                if let Some(bit_rate) = self.node.core.lss.bit_rate {
-                    self.app.activate_bit_rate(bit_rate, u16::from_le_bytes([b1, b2]));
+                let delay = u16::from_le_bytes([b1, b2]);
+                let answer = self.app.lss(&mut self.node, LssRequest::ActivateBitRate(delay));
+                if let (LssAnswer::ByNode, Some(bit_rate)) = (answer, self.node.core.lss.bit_rate) {
+                    self.app.activate_bit_rate(bit_rate, delay);
                 }
             }
             command::STORE => {
-                let error = if self.store_lss().is_ok() { 0 } else { 2 };
+                let core = &self.node.core;
+                let present = Commissioning { node_id: core.pending_node_id, bit_rate: core.lss.bit_rate };
+                let error = match self.app.lss(&mut self.node, LssRequest::Store(present)) {
+                    LssAnswer::Refused(error) => error,
+                    LssAnswer::Done => 0,
+                    LssAnswer::ByNode if self.store_lss().is_ok() => 0,
+                    LssAnswer::ByNode => {
+                        self.app.storage_failed(&mut self.node, Record::Lss);
+                        2
+                    }
+                };
                 self.answer([code, error, 0, 0, 0, 0, 0, 0]);
             }
             command::INQUIRE_FIRST..=command::INQUIRE_LAST => {
@@ -186,9 +245,15 @@ impl Context<'_> {
     fn switch_global(&mut self, mode: u8) {
         match mode {
             0 => self.leave_configuration(),
-            1 => self.node.core.lss.is_in_configuration = true,
+            1 => self.enter_configuration(),
             _ => {}
         }
+    }
+
+    /// The configuration state is entered, unless the device refuses.
+    fn enter_configuration(&mut self) {
+        let answer = self.app.lss(&mut self.node, LssRequest::Configuration);
+        self.node.core.lss.is_in_configuration = !matches!(answer, LssAnswer::Refused(_));
     }
 
     /// A node without a node-ID that has got one boots up now.
@@ -213,7 +278,10 @@ impl Context<'_> {
         self.node.core.lss.selected += 1;
         if place == 3 {
             self.node.core.lss.selected = 0;
-            self.node.core.lss.is_in_configuration = true;
+            self.enter_configuration();
+            if !self.node.core.lss.is_in_configuration {
+                return;
+            }
             self.answer([command::SWITCH_SELECTIVE_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
         }
     }
@@ -263,7 +331,7 @@ impl Context<'_> {
         if bit == 0 {
             self.node.core.lss.scanned = next;
             if place == 3 && next == 0 {
-                self.node.core.lss.is_in_configuration = true;
+                self.enter_configuration();
             }
         }
         self.answer([command::IDENTIFY_ANSWER, 0, 0, 0, 0, 0, 0, 0]);

@@ -6,7 +6,7 @@ use crate::emcy::Emcy;
 use crate::guarding::Guarding;
 use crate::heartbeat::{HeartbeatConsumer, Producer};
 use crate::lss::Commissioning;
-use crate::{Error, Frame, Reset};
+use crate::{Error, Frame, Record, Reset};
 use edskit_types::{CanId, Index, NmtCommand, NmtState, NodeId};
 
 /// What the device does when it has booted up (CiA 302-2).
@@ -31,6 +31,7 @@ impl Context<'_> {
         }
         self.initialise(Reset::Node);
         if is_lost {
+            self.app.storage_failed(&mut self.node, Record::Lss);
             self.raise(Error::LOST_PARAMETERS, crate::lss::SOURCE, [0; 5]);
         }
     }
@@ -54,7 +55,7 @@ impl Context<'_> {
     /// Goes to another state; nothing happens where the node is in it or waits for a node-ID.
     pub(crate) fn enter(&mut self, to: NmtState) {
         let from = self.node.core.state;
-        if from == to || from == NmtState::Initialising {
+        if from == to || [from, to].contains(&NmtState::Initialising) {
             return;
         }
         self.node.core.state = to;
@@ -85,7 +86,7 @@ impl Context<'_> {
         self.end_transfers();
         self.node.consumers.fill(HeartbeatConsumer::NEW);
         self.node.core.queue.clear();
-        self.node.core.node_id = self.node.core.pending_node_id;
+        self.commission(reset);
         if reset == Reset::Node {
             self.node.core.node_id_of_reset = self.node.core.node_id;
         }
@@ -101,6 +102,19 @@ impl Context<'_> {
         self.boot_up();
     }
 
+    /// Takes node-ID and bit rate as LSS or the device has configured them.
+    fn commission(&mut self, reset: Reset) {
+        let core = &self.node.core;
+        let configured = Commissioning { node_id: core.pending_node_id, bit_rate: core.lss.bit_rate };
+        let new = self.app.commissioning(&mut self.node, configured, reset);
+        self.node.core.pending_node_id = new.node_id;
+        self.node.core.node_id = new.node_id;
+        self.node.core.lss.bit_rate = new.bit_rate;
+        if let Some(bit_rate) = new.bit_rate.filter(|_| new.bit_rate != configured.bit_rate) {
+            self.app.activate_bit_rate(bit_rate, 0);
+        }
+    }
+
     /// Boots up, unless the device is not ready for it or there is no node-ID.
     pub(crate) fn boot_up(&mut self) {
         self.node.core.is_held = !self.app.is_ready(&mut self.node);
@@ -111,7 +125,8 @@ impl Context<'_> {
         let Some(node_id) = self.node.core.node_id else { return };
         self.node.core.queue.send(error_control(node_id), &[NmtState::Initialising.code()]);
         self.enter_pre_operational();
-        if self.starts_by_itself() {
+        let prescribed = self.starts_by_itself();
+        if self.app.starts_by_itself(&mut self.node, prescribed) {
             self.enter(NmtState::Operational);
         }
     }

@@ -10,10 +10,10 @@ use crate::queue::Queue;
 use crate::services::{Requests, Services};
 use crate::sync::Sync;
 use crate::{
-    Application, Entry, Frame, Instant, Leds, Microseconds, NoApplication, NotSent, Objects, Pattern,
-    PdoPolicy, Reset, Storage,
+    Application, BusState, Entry, Frame, Instant, Leds, Microseconds, NoApplication, NotSent, Objects,
+    Pattern, PdoPolicy, Reset, Storage,
 };
-use edskit_types::{AbortCode, BitRates, IdentifierRules, NmtState, NodeId};
+use edskit_types::{AbortCode, BitRates, CanId, IdentifierRules, NmtState, NodeId};
 
 /// What a node is told besides its dictionary. A generated dictionary has the constant `SETTINGS`, which says what
 /// `[DeviceInfo]` of its EDS does.
@@ -32,6 +32,10 @@ pub struct Settings {
     pub has_segmented_transfer: bool,
     /// Whether its SDO servers know block transfer, which is optional in CiA 301.
     pub has_block_transfer: bool,
+    /// The identifier of the SYNC message where the dictionary has no 1005h; `None` for none.
+    pub sync: Option<CanId>,
+    /// Whether EMCY messages are sent with 80h and the node-ID where the dictionary has no 1014h.
+    pub sends_emergencies: bool,
     /// How the parameters of PDOs are treated.
     pub pdos: PdoPolicy,
     /// Mapped values have a multiple of so many bits (`Granularity` of the EDS); 0 and 1 allow any length.
@@ -51,6 +55,8 @@ impl Settings {
         has_lss: true,
         has_segmented_transfer: true,
         has_block_transfer: true,
+        sync: None,
+        sends_emergencies: false,
         pdos: PdoPolicy::CIA_301,
         granularity: 1,
         identifiers: &IdentifierRules::CIA_301,
@@ -89,6 +95,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             is_held: false,
             queue: Queue::new(),
             has_overrun: false,
+            bus_state: BusState::Active,
             next_tpdo: 0,
             requests: Requests::NONE,
             answer_delay: Microseconds(0),
@@ -154,9 +161,16 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     /// Leads the node to another state, as the NMT master could. Nothing happens while it is initialising, and
     /// [`NmtState::Initialising`] cannot be entered in this way: see [`reset`](Node::reset).
     pub fn enter(&mut self, now: Instant, state: NmtState, app: &mut dyn Application) {
-        if state != NmtState::Initialising {
-            self.context(now, app).enter(state);
-        }
+        self.context(now, app).enter(state);
+    }
+
+    /// The CAN controller is in another state. Error passive is told by EMCY 8120h while it lasts, and a recovery from bus-off
+    /// by 8140h; bus-off is a communication error to which the node reacts as 1029h says
+    /// ([`Application::reaction`]). The red indicator shows each.
+    pub fn bus_state(&mut self, now: Instant, state: BusState, app: &mut dyn Application) {
+        let mut context = self.context(now, app);
+        context.bus_found(state);
+        context.do_requests();
     }
 
     /// The dictionary and the services, for what the device does between the calls of the node: raise an error, trigger a
@@ -212,6 +226,10 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             NmtState::PreOperational => Pattern::Blinking,
             NmtState::Operational => Pattern::On,
         };
-        Leds { run, error: self.core.emcy.pattern() }
+        let error = match self.core.bus_state {
+            BusState::Off => Pattern::On,
+            state => self.core.emcy.pattern(state != BusState::Active),
+        };
+        Leds { run, error }
     }
 }

@@ -173,7 +173,7 @@ impl Context<'_> {
                 self.parameter_changed(entry);
             }
         }
-        if let Some(state) = requests.state.filter(|state| *state != NmtState::Initialising) {
+        if let Some(state) = requests.state {
             self.enter(state);
         }
     }

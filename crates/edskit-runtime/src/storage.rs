@@ -130,6 +130,43 @@ const RELATIVE: u16 = 1 << 15;
 const CHUNK: usize = 16;
 
 impl Services<'_> {
+    /// Keeps bytes over power-off in a record of the device ([`Record::Device`]): what a manual stores when it is written,
+    /// without 1010h. A checksum is kept with them.
+    ///
+    /// # Errors
+    /// [`StorageError`] if the memory does not take them.
+    pub fn keep(&mut self, record: u8, data: &[u8]) -> Result<(), StorageError> {
+        let record = Record::Device(record);
+        let length = u16::try_from(data.len()).map_err(|_| StorageError)?;
+        let mut writer = Writer { storage: self.storage, record, crc: Crc::new() };
+        writer.storage.begin(record)?;
+        writer.write(&length.to_le_bytes())?;
+        writer.write(data)?;
+        let crc = writer.crc.value().to_le_bytes();
+        writer.storage.write(record, &crc)?;
+        writer.storage.commit(record)
+    }
+
+    /// The bytes that were kept in a record of the device; `None` where there are none.
+    ///
+    /// # Errors
+    /// [`StorageError`] if the memory does not answer, the record is torn, or it holds more than `buffer`.
+    pub fn kept<'b>(&mut self, record: u8, buffer: &'b mut [u8]) -> Result<Option<&'b [u8]>, StorageError> {
+        let mut reader = Reader::new(self.storage, Record::Device(record));
+        let mut crc = Crc::new();
+        let mut two = [0; 2];
+        match reader.read(&mut two)? {
+            0 => return Ok(None),
+            2 => crc.update(&two),
+            _ => return Err(StorageError),
+        }
+        let data = buffer.get_mut(..usize::from(u16::from_le_bytes(two))).ok_or(StorageError)?;
+        let is_whole = reader.read(data)? == data.len();
+        crc.update(data);
+        let is_right = is_whole && reader.read(&mut two)? == 2 && u16::from_le_bytes(two) == crc.value();
+        if is_right { Ok(Some(data)) } else { Err(StorageError) }
+    }
+
     /// Saves a group of values, as 1010h does: for manuals that save on other occasions.
     ///
     /// # Errors
@@ -190,14 +227,20 @@ impl Context<'_> {
 
     /// 1010h is written: saves the groups that the sub-index stands for. Or 1011h is: forgets what is stored of them; the
     /// values change with the next reset. Either way nothing of them is lost any more.
-    pub(crate) fn do_command(&mut self, index: Index, sub_index: SubIndex) -> Result<(), AbortCode> {
+    pub(crate) fn do_command(&mut self, entry: &Entry) -> Result<(), AbortCode> {
+        if !self.app.storage_command(&mut self.node, entry)? {
+            return Ok(());
+        }
         for group in groups(self.node.objects.table) {
-            if ![ALL_GROUPS, group.0].contains(&sub_index.0) {
+            if ![ALL_GROUPS, group.0].contains(&entry.sub_index.0) {
                 continue;
             }
-            let saves = index == Index::STORE_PARAMETERS;
+            let saves = entry.index == Index::STORE_PARAMETERS;
             let done = if saves { self.node.save(group) } else { self.node.forget(group) };
-            done.map_err(|StorageError| AbortCode::HARDWARE_ERROR)?;
+            if done.is_err() {
+                self.app.storage_failed(&mut self.node, Record::Values(group));
+                return Err(AbortCode::HARDWARE_ERROR);
+            }
         }
         Ok(())
     }
@@ -215,6 +258,7 @@ impl Context<'_> {
                     Err(StorageError) => Err([0; 4]),
                 };
                 if let Err([a, b, c, d]) = loaded {
+                    self.app.storage_failed(&mut self.node, Record::Values(group));
                     self.raise(Error::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
                 }
             }

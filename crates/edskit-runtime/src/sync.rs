@@ -111,8 +111,10 @@ impl Context<'_> {
     /// What follows from 1005h, 1006h and 1019h: the producer begins anew, its first message after one period, and the
     /// error of a message that was expected otherwise is none any more.
     pub(crate) fn sync_changed(&mut self) {
+        let has_object = self.node.objects.value::<u32>(Index::SYNC_COB_ID, 0).is_some();
         let cob_id = self.sync_cob_id();
-        let can_id = cob_id.map(CobId::can_id);
+        let fixed = self.node.core.settings.sync.filter(|_| !has_object);
+        let can_id = cob_id.map(CobId::can_id).or(fixed);
         let is_producer = cob_id.is_some_and(CobId::bit30);
         let period = if is_producer { self.sync_period() } else { Microseconds(0) };
         let sync = &mut self.node.core.sync;
