@@ -1,5 +1,6 @@
 //! Storing parameters over power-off: 1010h, 1011h, and what LSS configures.
 
+use crate::Application;
 use crate::access::is_communication;
 use crate::context::Context;
 use crate::crc::Crc;
@@ -218,7 +219,7 @@ impl Services<'_> {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// What 1010h and 1011h take: their signature.
     pub(crate) fn check_command(&self, index: Index, data: &[u8]) -> Result<(), AbortCode> {
         let signature = if index == Index::STORE_PARAMETERS { SAVE } else { LOAD };

@@ -1,6 +1,7 @@
 //! RPDOs: taking frames, the SYNC message, and the event time.
 
 use super::Parameters;
+use crate::Application;
 use crate::context::Context;
 use crate::dictionary::raw;
 use crate::time::Timer;
@@ -40,7 +41,7 @@ impl Rpdo {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// What is left of an RPDO with other parameters. Of one that is not the same any more, nothing is. Data wait for SYNC
     /// only in a type that makes them wait. An event time that runs begins anew, and the error of the old one goes.
     pub(super) fn rpdo_changed(&mut self, place: usize, new: Parameters, is_remapped: bool) {
