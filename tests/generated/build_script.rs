@@ -7,7 +7,7 @@ const MORE: &str = r#"//! A device that looks at its dictionary.
 #![deny(warnings)]
 
 use edskit_runtime::types::{Index, SubIndex};
-use edskit_runtime::{Dictionary as _, Handle, Instant, NoApplication, NoStorage, Node, Settings};
+use edskit_runtime::{Dictionary as _, Handle, Instant, NoApplication, NoStorage, Node, Settings, WriteError};
 
 edskit_runtime::include_dictionary!("Pump");
 
@@ -18,7 +18,14 @@ fn main() {
     let mut objects = dictionary.parts().objects;
     objects.set(pump::objects::SET_SPEED, -1200);
     assert_eq!(objects.get(pump::objects::SET_SPEED), -1200_i16);
-    assert_eq!(objects.bytes(pump::objects::MANUFACTURER_DEVICE_NAME), b"Pump");
+    assert_eq!(objects.text(pump::objects::MANUFACTURER_DEVICE_NAME), Ok("Pump"));
+    assert_eq!(objects.set_text(pump::objects::LOCATION, "Hall 4"), Ok(()));
+    assert_eq!(objects.set_text(pump::objects::LOCATION, "Hall 4, behind the door"), Err(WriteError::Length));
+    assert_eq!(objects.text(pump::objects::LOCATION), Ok("Hall 4"));
+    for (step, handle) in (1..).zip(pump::objects::STEP) {
+        objects.set(handle, step);
+    }
+    assert_eq!(objects.value(Index(0x2009), 3), Some(3_u8));
     let mut node = Node::new(pump::Dictionary::new(), Settings::default(), NoStorage);
     node.poll(Instant(0), &mut NoApplication);
     let emcy: Handle<u32> = pump::objects::COB_ID_EMCY;

@@ -54,7 +54,7 @@ fn a_mapping_that_cannot_be_stops_the_compiler_at_the_place_in_the_eds() {
     let output = packages.cargo(&["check", "-p", "bad"]);
     assert!(!output.status.success());
     let lines: BTreeSet<String> =
-        [6, 34, 38, 42, 46, 50, 54].iter().map(|line| format!("eds/bad {{device}}.eds:{line}:14")).collect();
+        [6, 34, 38, 42, 46, 50, 54].iter().map(|line| format!("bad {{device}}.eds:{line}:14")).collect();
     let compiler = stderr(&output);
     assert_eq!(complaints(&compiler), lines, "{compiler}");
     assert!(compiler.contains("TPDO1 cannot carry 2001h sub-index 00h with 16 bits"), "{compiler}");

@@ -1,9 +1,12 @@
 //! From a layout to Rust.
 
+mod handles;
+mod renamed;
 mod view;
 
 use crate::Layout;
 use askama::Template;
+pub(crate) use renamed::renamed;
 use view::View;
 
 /// How the generated code is named, and what it names.
@@ -28,7 +31,7 @@ impl Naming {
     /// ```
     #[must_use]
     pub fn of(eds: &str) -> Self {
-        let file_name = eds.rsplit(['/', '\\']).next().unwrap_or_default();
+        let file_name = file_name(eds);
         let stem = file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem);
         let end = eds.len() - file_name.len() + stem.len();
         Self {
@@ -38,6 +41,11 @@ impl Naming {
             runtime: "::edskit_runtime".to_owned(),
         }
     }
+}
+
+/// The name of the file at a path. Generated code has no more of the path: it is the same wherever the file lies.
+pub(crate) fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or_default()
 }
 
 /// The Rust code of a dictionary: one module.

@@ -69,7 +69,7 @@ impl<'a> Context<'a> {
             return self.do_command(entry.index, entry.sub_index);
         }
         let is_event = self.app.write_is_event(&self.objects, entry) && self.objects.bytes(position) != data;
-        self.objects.store(position, data);
+        self.objects.put(position, data);
         if is_of_services {
             self.parameter_changed(entry);
         }
