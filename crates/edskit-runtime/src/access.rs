@@ -58,25 +58,39 @@ impl<'a> Context<'a> {
     /// A client or an RPDO brings a value of the right length to an entry.
     pub(crate) fn bring(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         self.objects.check_value(position, entry, data)?;
-        let is_of_services = is_communication(entry.index);
-        if is_of_services {
-            // Of a value that cannot be, at a time when none can, the time is said.
-            self.check_change(entry, data)?;
-            self.check_parameter(entry, data)?;
+        if is_communication(entry.index) {
+            return self.bring_parameter(position, entry, data);
         }
         self.app.before_write(&mut self.objects, entry, data)?;
-        if is_of_services && is_command(entry) {
+        self.put(position, entry, data);
+        Ok(())
+    }
+
+    /// The same for an entry of 1000h to 1FFFh.
+    #[inline(never)]
+    fn bring_parameter(&mut self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+        // Of a value that cannot be, at a time when none can, the time is said.
+        self.check_change(entry, data)?;
+        self.check_parameter(entry, data)?;
+        self.app.before_write(&mut self.objects, entry, data)?;
+        if is_command(entry) {
             return self.do_command(entry.index, entry.sub_index);
         }
+        self.put(position, entry, data);
+        Ok(())
+    }
+
+    /// Gives an entry a value that has been checked, with what follows from it.
+    #[inline]
+    fn put(&mut self, position: Position, entry: &Entry, data: &[u8]) {
         let is_event = self.app.write_is_event(&self.objects, entry) && self.objects.bytes(position) != data;
-        self.objects.put(position, data);
-        if is_of_services {
+        self.objects.put(position, entry, data);
+        if is_communication(entry.index) {
             self.parameter_changed(entry);
         }
         if is_event {
             self.value_changed(position);
         }
-        Ok(())
     }
 
     /// Whether an entry of 1000h to 1FFFh can have a value at all: what the standard says about single objects.

@@ -101,7 +101,7 @@ impl Context<'_> {
         }
         if self.core.queue.take_overflow() {
             self.overrun_found(true);
-        } else if self.core.queue.room() > 0 {
+        } else if self.core.has_overrun && self.core.queue.room() > 0 {
             self.overrun_found(false);
         }
         self.poll_heartbeat();

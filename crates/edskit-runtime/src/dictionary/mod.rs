@@ -15,7 +15,7 @@ pub use parts::{Dictionary, Memory, Parts};
 pub use table::{Limits, Position, Table};
 pub use text::{OctetString, Octets, Text, UnicodeString, VisibleString, WriteError};
 pub use value::{TimeDifference, Value};
-pub(crate) use value::{copy, raw};
+pub(crate) use value::{copy, raw, unsigned};
 
 #[cfg(test)]
 pub(crate) mod testing {

@@ -135,9 +135,12 @@ impl<'a> Objects<'a> {
         if entry.data_type == DataType::Boolean && data.first().is_some_and(|byte| *byte > 1) {
             return Err(AbortCode::INVALID_VALUE);
         }
-        if !entry.flags.has(Flags::LIMITED) {
-            return Ok(());
-        }
+        // Most values have none, and each value of each RPDO is looked at.
+        if entry.flags.has(Flags::LIMITED) { self.check_limits(position, entry, data) } else { Ok(()) }
+    }
+
+    #[inline(never)]
+    fn check_limits(&self, position: Position, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         let Some(limits) = self.table.limits(position) else { return Ok(()) };
         let data_type = entry.data_type;
         let value = rank(data_type, raw(data, data_type.is_signed()));
@@ -151,8 +154,8 @@ impl<'a> Objects<'a> {
     }
 
     /// Gives an entry these bytes, of a text as many as fit. Who calls it has checked the length.
-    pub(crate) fn put(&mut self, position: Position, data: &[u8]) {
-        let Some(entry) = self.table.entry(position) else { return };
+    #[inline(never)]
+    pub(crate) fn put(&mut self, position: Position, entry: &Entry, data: &[u8]) {
         if entry.has_length() {
             self.set_length(position, data.len().min(usize::from(entry.size)) as u16);
         }
@@ -251,9 +254,9 @@ mod tests {
         let mut objects = Objects::new(&table, &mut values);
         objects.restore(None, |_| true);
         assert_eq!(objects.bytes(Position(0)), b"ok");
-        objects.put(Position(0), b"abcdef");
+        objects.put(Position(0), &entries[0], b"abcdef");
         assert_eq!(objects.bytes(Position(0)), b"abcd");
-        objects.put(Position(0), b"");
+        objects.put(Position(0), &entries[0], b"");
         assert_eq!(objects.bytes(Position(0)), b"");
         assert_eq!((values[0], values[7]), (0, 0), "the neighbours are not touched");
     }

@@ -86,7 +86,7 @@ impl fmt::Display for WriteError {
 
 impl core::error::Error for WriteError {}
 
-impl Objects<'_> {
+impl<'a> Objects<'a> {
     /// A text as it is now.
     ///
     /// # Errors
@@ -157,11 +157,11 @@ impl Objects<'_> {
         if data.len() > size || (data.len() < size && !entry.has_length()) {
             return Err(WriteError::Length);
         }
-        self.put(position, data);
+        self.put(position, entry, data);
         Ok(())
     }
 
-    fn writable(&self, position: Position) -> Result<(Position, &Entry), WriteError> {
+    fn writable(&self, position: Position) -> Result<(Position, &'a Entry), WriteError> {
         let entry = self.table.entry(position).ok_or(WriteError::NoEntry)?;
         if entry.flags.has(Flags::VARIABLE) { Ok((position, entry)) } else { Err(WriteError::Constant) }
     }

@@ -111,7 +111,18 @@ times!(TimeOfDay, TimeDifference);
 #[inline(never)]
 pub(crate) fn raw(bytes: &[u8], is_signed: bool) -> u64 {
     let is_negative = is_signed && bytes.last().is_some_and(|byte| byte & 0x80 != 0);
-    let above = if is_negative { u64::MAX } else { 0 };
+    bits(bytes, if is_negative { u64::MAX } else { 0 })
+}
+
+/// The bits of at most eight bytes, low byte first. Unlike [`raw`] it is no call, for what is done with every value of a PDO.
+#[inline(always)]
+pub(crate) fn unsigned(bytes: &[u8]) -> u64 {
+    bits(bytes, 0)
+}
+
+/// The same, with the bits of `above` above them.
+#[inline(always)]
+fn bits(bytes: &[u8], above: u64) -> u64 {
     // Almost every value is shorter than eight bytes: a call that copies them costs more than these steps.
     bytes.iter().take(size_of::<u64>()).rev().fold(above, |bits, byte| bits << 8 | u64::from(*byte))
 }
@@ -127,6 +138,15 @@ fn write_raw(mut bits: u64, bytes: &mut [u8]) {
 /// Copies as many bytes as both have. Unlike `copy_from_slice` it cannot panic.
 #[inline(never)]
 pub(crate) fn copy(to: &mut [u8], from: &[u8]) {
+    if from.len() <= size_of::<u64>() {
+        // Almost every value is so short that a call that copies memory takes longer than these steps.
+        let mut bits = unsigned(from);
+        for place in to.iter_mut().take(from.len()) {
+            *place = bits as u8;
+            bits >>= 8;
+        }
+        return;
+    }
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
     }

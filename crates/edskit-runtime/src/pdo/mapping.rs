@@ -2,8 +2,8 @@
 
 use super::{MOST_ENTRIES, Place};
 use crate::context::Context;
-use crate::dictionary::{Flags, Position, raw};
-use crate::{Entry, Objects, Value};
+use crate::dictionary::{Flags, Position, unsigned};
+use crate::{Entry, Objects};
 use edskit_types::{AbortCode, DataType, MappingEntry, PdoDirection};
 
 /// The most bits of a PDO.
@@ -75,7 +75,7 @@ pub(super) fn gather(objects: &Objects<'_>, mapped: &[Mapped]) -> u64 {
     let mut data = 0;
     let mut offset = 0;
     for value in mapped {
-        let bits = value.position.map_or(0, |position| raw(objects.bytes(position), false));
+        let bits = value.position.map_or(0, |position| unsigned(objects.bytes(position)));
         data |= (bits & mask(value.bits)).checked_shl(offset).unwrap_or(0);
         offset += u32::from(value.bits);
     }
@@ -93,8 +93,7 @@ impl Context<'_> {
             data = data.checked_shr(value.bits.into()).unwrap_or(0);
             let Some(position) = value.position else { continue };
             let Some(entry) = self.objects.table.entry(position) else { continue };
-            let mut bytes = [0; 8];
-            bits.to_bytes(&mut bytes);
+            let bytes = bits.to_le_bytes();
             let size = usize::from(value.bits.div_ceil(8));
             let bytes = bytes.get(..size).unwrap_or_default();
             if let Err(code) = self.bring(position, entry, bytes) {

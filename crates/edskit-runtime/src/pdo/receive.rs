@@ -115,8 +115,10 @@ impl Context<'_> {
         if is_synchronous && is_in_time {
             rpdo.waiting = Some(data);
         }
-        self.shortness_found(place, false, 0);
-        self.lateness_found(place, false);
+        if rpdo.is_short || rpdo.is_late {
+            self.shortness_found(place, false, 0);
+            self.lateness_found(place, false);
+        }
         if !is_synchronous {
             self.scatter(number, slots, data);
             self.app.rpdo_received(&mut self.objects, number);

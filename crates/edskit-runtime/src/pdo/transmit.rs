@@ -238,6 +238,12 @@ impl Context<'_> {
         if self.core.state != NmtState::Operational {
             return;
         }
+        let now = self.now;
+        let is_calm = |tpdo: &Tpdo| !(tpdo.is_ready || tpdo.is_due || tpdo.event.is_due(now));
+        if self.tpdos.iter().all(is_calm) {
+            self.core.next_tpdo = 0;
+            return;
+        }
         let mut without_room = None;
         let count = self.tpdos.len();
         for step in 0..count {

@@ -47,12 +47,13 @@ impl Context<'_> {
         request: &Request,
     ) -> Step {
         let [command, _, _, _, block_size, threshold, ..] = *request;
-        self.open_source(number, &mut session.item)?;
+        self.open_source(&mut session.item)?;
         check_block_size(block_size)?;
-        let item = &session.item;
+        let item = &mut session.item;
         if threshold > 0 && item.length.is_some_and(|length| length <= threshold.into()) {
             return self.begin_upload_of(number, session);
         }
+        self.hold_source(number, item);
         let answer = 0xC0 | BLOCK_CRC | u8::from(item.length.is_some()) << 1;
         self.answer_about(number, answer, item, item.length.unwrap_or(0).to_le_bytes());
         session.transfer = Transfer::BlockUpload(BlockUpload {

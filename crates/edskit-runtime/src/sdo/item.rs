@@ -48,7 +48,7 @@ impl Item {
 
 impl<'a> Context<'a> {
     /// Opens a value for reading.
-    pub(super) fn open_source(&mut self, number: usize, item: &mut Item) -> Result<(), AbortCode> {
+    pub(super) fn open_source(&mut self, item: &mut Item) -> Result<(), AbortCode> {
         let (position, entry) = self.open(item.index, item.sub_index)?;
         self.begin_read(entry)?;
         item.position = position;
@@ -58,13 +58,20 @@ impl<'a> Context<'a> {
             item.length = self.app.domain_length(&mut self.objects, entry)?;
             return Ok(());
         }
-        let share = self.share(number);
-        let value = self.objects.bytes(position);
-        let buffer = self.buffers.get_mut(share).unwrap_or_default();
-        item.origin = if value.len() <= buffer.len() { Origin::Buffer } else { Origin::Dictionary };
-        item.length = Some(value.len() as u32);
-        copy(buffer, value);
+        item.origin = Origin::Dictionary;
+        item.length = Some(self.objects.bytes(position).len() as u32);
         Ok(())
+    }
+
+    /// Keeps a value that is not answered at once from changing while it is read.
+    pub(super) fn hold_source(&mut self, number: usize, item: &mut Item) {
+        let share = self.share(number);
+        let value = self.objects.bytes(item.position);
+        let buffer = self.buffers.get_mut(share).unwrap_or_default();
+        if item.origin == Origin::Dictionary && value.len() <= buffer.len() {
+            item.origin = Origin::Buffer;
+            copy(buffer, value);
+        }
     }
 
     /// Reads bytes of a value from `offset` on, as many as there are and fit, and says how many.

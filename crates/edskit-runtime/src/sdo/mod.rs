@@ -78,6 +78,12 @@ struct Session {
 impl Session {
     const NONE: Self = Self { transfer: Transfer::None, item: Item::NONE, time_out: Timer::OFF };
 
+    /// Nothing runs any more.
+    fn end(&mut self) {
+        self.transfer = Transfer::None;
+        self.time_out = Timer::OFF;
+    }
+
     /// Whether it is the server's turn, not the client's.
     fn is_sending(&self) -> bool {
         matches!(&self.transfer, Transfer::BlockUpload(upload) if upload.is_sending())
@@ -261,13 +267,12 @@ impl Context<'_> {
             let code = self.app.abort_code(code, index, sub_index);
             self.answer_about(number, ABORT, &session.item, code.0.to_le_bytes());
         }
+        let Some(server) = self.servers.get_mut(number) else { return };
         if step == Ok(Next::Request) {
             session.time_out = Timer::after(self.now, TIME_OUT);
-        } else {
-            session = Session::NONE;
-        }
-        if let Some(server) = self.servers.get_mut(number) {
             server.session = session;
+        } else {
+            server.session.end();
         }
     }
 
