@@ -124,7 +124,7 @@ pub trait Application {
 
     /// A stored value has no place any more, since an update has changed the dictionary: there is no such entry, it is not
     /// stored now, or it cannot have this value. The last of these is an error of the device too
-    /// ([`Error::LOST_PARAMETERS`](crate::Error::LOST_PARAMETERS)), and the entry has its default.
+    /// ([`EmcyError::LOST_PARAMETERS`](crate::EmcyError::LOST_PARAMETERS)), and the entry has its default.
     fn stored_value_dropped(&mut self, objects: &mut Objects<'_>, index: Index, sub_index: SubIndex) {
         let _ = (objects, index, sub_index);
     }

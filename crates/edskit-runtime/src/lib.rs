@@ -10,7 +10,7 @@
 //! | the object dictionary | [`Dictionary`], [`Objects`], [`Handle`], [`Constant`], [`Key`], [`Table`], [`Entry`], [`Flags`] |
 //! | what a device adds | [`Application`], [`Storage`] |
 //! | what a main loop drives | [`Device`], [`NodeDevice`] |
-//! | errors | [`Error`], [`Emergency`] |
+//! | errors | [`EmcyError`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
 //! | for SDO clients too | [`Crc`] |
 //!
@@ -116,7 +116,7 @@ pub use dictionary::{
     Parts, Position, Readable, StorageGroup, Table, Text, TimeDifference, UnicodeString, Value,
     VisibleString, WriteError,
 };
-pub use emcy::{Emergency, Error};
+pub use emcy::{EmcyError, Emergency};
 pub use frame::{Frame, MOST_DATA};
 pub use heartbeat::HeartbeatConsumer;
 pub use led::{Leds, Pattern};

@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::storage::{Reader, Record};
-use crate::{Error, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
+use crate::{EmcyError, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
 use edskit_types::{Bitrate, CanId, Index, NodeId};
 
 /// The identifier of answers, 7E4h.
@@ -278,7 +278,7 @@ impl Context<'_> {
         // The complement tells a torn record from a right one.
         self.storage.write(Record::Lss, &[node_id, !node_id, low, high, !low, !high])?;
         self.storage.commit(Record::Lss)?;
-        self.clear(Error::LOST_PARAMETERS, SOURCE);
+        self.clear(EmcyError::LOST_PARAMETERS, SOURCE);
         Ok(())
     }
 }

@@ -6,7 +6,7 @@ use crate::emcy::Emcy;
 use crate::guarding::Guarding;
 use crate::heartbeat::{HeartbeatConsumer, Producer};
 use crate::lss::Commissioning;
-use crate::{Error, Frame, Reset};
+use crate::{EmcyError, Frame, Reset};
 use edskit_types::{CanId, Index, NmtCommand, NmtState, NodeId};
 
 /// What the device does when it has booted up (CiA 302-2).
@@ -31,7 +31,7 @@ impl Context<'_> {
         }
         self.initialise(Reset::Node);
         if is_lost {
-            self.raise(Error::LOST_PARAMETERS, crate::lss::SOURCE, [0; 5]);
+            self.raise(EmcyError::LOST_PARAMETERS, crate::lss::SOURCE, [0; 5]);
         }
     }
 

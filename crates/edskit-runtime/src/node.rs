@@ -9,7 +9,8 @@ use crate::lss::Lss;
 use crate::queue::Queue;
 use crate::sync::Sync;
 use crate::{
-    Application, Entry, Error, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
+    Application, EmcyError, Entry, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset,
+    Storage,
 };
 use edskit_types::{AbortCode, BitRates, IdentifierRules, NmtState, NodeId};
 
@@ -167,7 +168,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     pub fn raise(
         &mut self,
         now: Instant,
-        error: Error,
+        error: EmcyError,
         source: u16,
         info: [u8; 5],
         app: &mut dyn Application,
@@ -176,7 +177,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     }
 
     /// An error of the device has gone.
-    pub fn clear(&mut self, now: Instant, error: Error, source: u16, app: &mut dyn Application) {
+    pub fn clear(&mut self, now: Instant, error: EmcyError, source: u16, app: &mut dyn Application) {
         self.context(now, app).clear(error, source);
     }
 

@@ -4,7 +4,7 @@ use crate::access::is_communication;
 use crate::context::Context;
 use crate::crc::Crc;
 use crate::dictionary::{Entry, Flags, Position, StorageGroup, Table};
-use crate::emcy::Error;
+use crate::emcy::EmcyError;
 use edskit_types::{AbortCode, Index, SubIndex};
 
 /// Memory that keeps its content without power. It holds one record for each group of values.
@@ -145,7 +145,7 @@ impl Context<'_> {
             let saves = index == Index::STORE_PARAMETERS;
             let done = if saves { self.save_group(group) } else { self.storage.erase(Record::Values(group)) };
             done.map_err(|StorageError| AbortCode::HARDWARE_ERROR)?;
-            self.clear(Error::LOST_PARAMETERS, group.0.into());
+            self.clear(EmcyError::LOST_PARAMETERS, group.0.into());
         }
         Ok(())
     }
@@ -193,7 +193,7 @@ impl Context<'_> {
                     Err(StorageError) => Err([0; 4]),
                 };
                 if let Err([a, b, c, d]) = loaded {
-                    self.raise(Error::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
+                    self.raise(EmcyError::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
                 }
             }
         }

@@ -9,7 +9,7 @@ use super::super::{Configuration, Pdo};
 use super::Plant;
 use super::side::Phase;
 use crate::gateway::dictionary::canopen_gateway::{keys, objects as entries};
-use edskit_runtime::{Application, Emergency, Entry, Error, Key, Microseconds, Objects, Reset, Storage};
+use edskit_runtime::{Application, EmcyError, Emergency, Entry, Key, Microseconds, Objects, Reset, Storage};
 use edskit_types::{AbortCode, Index, NmtState, PdoDirection};
 
 impl<G: Governor, S: Storage> Application for Plant<G, S> {
@@ -121,7 +121,7 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
 
     /// There are no EMCY messages (GW-OD-21), but the node says by one that its transmit buffer was full.
     fn emergency(&mut self, _: &mut Objects<'_>, emergency: &Emergency) {
-        self.gateway.has_overflown |= emergency.code == Error::CAN_OVERRUN.code;
+        self.gateway.has_overflown |= emergency.code == EmcyError::CAN_OVERRUN.code;
     }
 }
 
