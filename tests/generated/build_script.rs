@@ -22,7 +22,7 @@ fn main() {
     assert_eq!(objects.set_text(pump::objects::LOCATION, "Hall 4"), Ok(()));
     assert_eq!(objects.set_text(pump::objects::LOCATION, "Hall 4, behind the door"), Err(WriteError::Length));
     assert_eq!(objects.text(pump::objects::LOCATION), Ok("Hall 4"));
-    for (step, handle) in (1..).zip(pump::objects::STEP) {
+    for (step, handle) in (1..).zip(pump::objects::STEPS) {
         objects.set(handle, step);
     }
     assert_eq!(objects.value(Index(0x2009), 3), Some(3_u8));
@@ -55,7 +55,7 @@ fn the_device_of_the_page_is_built_and_runs() {
     let mut packages = Packages::new("build-script");
     packages.add(
         "pump",
-        &format!("\n[build-dependencies]\n{}", dependency("edskit-codegen")),
+        &format!("{}\n[build-dependencies]\n{}", dependency("edskit-host"), dependency("edskit-codegen")),
         &[
             ("build.rs", &build),
             ("src/main.rs", &main),
@@ -64,7 +64,8 @@ fn the_device_of_the_page_is_built_and_runs() {
             ("eds/Pump.toml", &side_file),
         ],
     );
-    for (program, printed) in [("pump", "a heartbeat every 1000 ms\n"), ("more", "works\n")] {
+    let heard = "0 ms: 701 [00]\n1000 ms: 701 [7F]\n2000 ms: 701 [7F]\n";
+    for (program, printed) in [("pump", heard), ("more", "works\n")] {
         let output = packages.cargo(&["run", "--quiet", "--bin", program]);
         assert!(output.status.success(), "{}", packages.clean(&output));
         assert_eq!(String::from_utf8_lossy(&output.stdout), printed);
@@ -74,7 +75,7 @@ fn the_device_of_the_page_is_built_and_runs() {
     packages.write("pump/eds/Pump.toml", &side_file.replace("\"1017\" =", "\"1019\" ="));
     let output = packages.cargo(&["clippy"]);
     assert!(output.status.success(), "{}", packages.clean(&output));
-    let warning = "warning: pump@0.0.0: eds/Pump.toml:23:1: GEN the dictionary has no such entry";
+    let warning = "warning: pump@0.0.0: eds/Pump.toml:26:1: GEN the dictionary has no such entry";
     assert!(packages.clean(&output).contains(warning), "{}", packages.clean(&output));
 
     let eds = eds().replace("0x20020020", "0x20030020").replace("DataType=0x0018", "DataType=0x0999");

@@ -56,6 +56,7 @@ pub fn render(layout: &Layout, naming: &Naming) -> String {
     // Neither the view's types nor a string fail to be written.
     View::new(layout, naming)
         .render()
+        .map(|code| code + "\n")
         .unwrap_or_else(|error| format!("compile_error!({:?});\n", error.to_string()))
 }
 
