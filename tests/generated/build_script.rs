@@ -7,7 +7,7 @@ const MORE: &str = r#"//! A device that looks at its dictionary.
 #![deny(warnings)]
 
 use edskit_runtime::types::{Index, SubIndex};
-use edskit_runtime::{Dictionary as _, Handle, Instant, NoApplication, NoStorage, Node, Settings, WriteError};
+use edskit_runtime::{Dictionary as _, Handle, Instant, NoApplication, NoStorage, Node, Reset, Settings, WriteError};
 
 edskit_runtime::include_dictionary!("Pump");
 
@@ -27,7 +27,11 @@ fn main() {
     }
     assert_eq!(objects.value(Index(0x2009), 3), Some(3_u8));
     let mut node = Node::new(pump::Dictionary::new(), Settings::default(), NoStorage);
+    let serial_number = pump::objects::IDENTITY_OBJECT_SERIAL_NUMBER;
+    node.objects().set(serial_number, 4711);
     node.poll(Instant(0), &mut NoApplication);
+    node.reset(Instant(0), Reset::Node, &mut NoApplication);
+    assert_eq!(node.objects().get(serial_number), 4711, "it is given");
     let emcy: Handle<u32> = pump::objects::COB_ID_EMCY;
     assert_eq!(node.objects().get(emcy), 0x81);
     assert!(pump::TABLE.find(Index(0x2001), SubIndex(4)).is_ok());

@@ -110,26 +110,41 @@ fn base_name(named: &Named<'_>) -> (String, Option<Reason>) {
         None => named.object.map_or_else(String::new, words),
     };
     let own = words(named.name);
+    let mut is_cut = false;
     // Names of compact sub-objects begin with that of the object.
     let repeats = named.object.is_some_and(|object| !object.is_empty() && named.name.starts_with(object));
     let mut name = match (repeats, named.given_object, named.object) {
         (true, Some(given), Some(object)) => [given, &words(&named.name[object.len()..])].join("_"),
         (true, ..) => own,
         (false, ..) if object.is_empty() || own.is_empty() => object + &own,
-        (false, ..) => [object, own].join("_"),
+        (false, ..) => {
+            is_cut = object.len() + 1 + own.len() > MOST_CHARACTERS;
+            // What an entry is called tells it from the others of its object, but not sub-index 00h from that of others.
+            let is_count = named.sub_index == Some(SubIndex(0));
+            let room = if is_count { object.len() } else { MOST_CHARACTERS.saturating_sub(own.len() + 1) };
+            [whole_words(&object, room), &own].join("_")
+        }
     };
     let loses_object = named.given_object.is_none() && named.object.is_some_and(loses);
     let mut reason = (loses(named.name) || loses_object).then_some(Reason::Lost);
     name = name.trim_matches('_').to_ascii_uppercase();
-    if name.len() > MOST_CHARACTERS {
-        name.truncate(MOST_CHARACTERS);
-        reason = reason.or(Some(Reason::Cut));
-    }
+    is_cut |= name.len() > MOST_CHARACTERS;
+    name.truncate(whole_words(&name, MOST_CHARACTERS).len());
+    reason = reason.or(is_cut.then_some(Reason::Cut));
     name.truncate(name.trim_end_matches('_').len());
     if name.starts_with(|first: char| first.is_ascii_digit()) {
         name.insert_str(0, "OBJECT_");
     }
     if name.is_empty() || is_place_name(&name) { (place_name(named), reason) } else { (name, reason) }
+}
+
+/// As many whole words as have room; of a first word that has none as much as fits, if it is the only one.
+fn whole_words(name: &str, room: usize) -> &str {
+    if name.len() <= room {
+        return name;
+    }
+    let end = name[..=room].rfind('_').unwrap_or(if name.contains('_') { 0 } else { room });
+    &name[..end]
 }
 
 /// `SPEED_2001_01`
@@ -274,6 +289,23 @@ mod tests {
         assert_eq!(reasons(&all), [Some(Reason::Cut), Some(Reason::Lost), Some(Reason::Lost)]);
         let all = called(&all);
         assert_eq!((all[0].len(), &*all[1], &*all[2]), (60, "A", "LEVEL"));
+        let object = Some("Dual loop position control parameter set of the main axis");
+        let all = [
+            named(0x2001, 1, object, "Main loop filter coefficient a"),
+            named(0x2001, 2, object, "Main loop filter coefficient b"),
+            named(0x2001, 3, object, "Gain"),
+            named(0x2001, 0, object, "Highest sub-index supported"),
+            named(0x2002, 0, None, "Number of mapped application objects in the process data object"),
+        ];
+        let wanted = [
+            "DUAL_LOOP_POSITION_CONTROL_MAIN_LOOP_FILTER_COEFFICIENT_A",
+            "DUAL_LOOP_POSITION_CONTROL_MAIN_LOOP_FILTER_COEFFICIENT_B",
+            "DUAL_LOOP_POSITION_CONTROL_PARAMETER_SET_OF_THE_MAIN_GAIN",
+            "DUAL_LOOP_POSITION_CONTROL_PARAMETER_SET_OF_THE_MAIN_AXIS",
+            "NUMBER_OF_MAPPED_APPLICATION_OBJECTS_IN_THE_PROCESS_DATA",
+        ];
+        assert_eq!(called(&all), wanted);
+        assert_eq!(reasons(&all), [Some(Reason::Cut); 5]);
     }
 
     #[test]

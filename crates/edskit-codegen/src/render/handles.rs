@@ -183,8 +183,16 @@ fn docs(layout: &Layout, place: usize) -> String {
         (None, None) => String::new(),
     };
     let given = if entry.flags.has(Flags::GIVEN) { "; given at start" } else { "" };
-    let (data_type, access) = (entry.data_type, source.access);
+    let (data_type, access) = (data_type(entry), source.access);
     format!(" {title}`[{}]`, {data_type}, {access}{}{given}.", source.section, unit(source))
+}
+
+/// `UNSIGNED16`, `VISIBLE_STRING of up to 16 bytes`
+fn data_type(entry: &Entry) -> String {
+    match entry.data_type {
+        text if text.is_string() && can_change(entry) => format!("{text} of up to {} bytes", entry.size),
+        data_type => data_type.to_string(),
+    }
 }
 
 fn unit(source: &Source) -> String {
@@ -202,6 +210,7 @@ fn array_docs(layout: &Layout, entries: Range<usize>) -> Vec<String> {
     };
     let access = all_alike(|source| format!(", {}", source.access));
     let unit_of_all = all_alike(unit);
+    let has_one_size = layout.entries[entries.clone()].iter().all(|entry| entry.size == first.size);
     let what = match entries.len() {
         1 => format!("sub-index {}", first.sub_index),
         _ => format!("sub-indices {} to {}", first.sub_index, last.sub_index),
@@ -209,7 +218,7 @@ fn array_docs(layout: &Layout, entries: Range<usize>) -> Vec<String> {
     let mut docs = vec![format!(
         " {title}{what} of {}, {}{}{}.",
         first.index,
-        first.data_type,
+        if has_one_size { data_type(first) } else { first.data_type.to_string() },
         access.as_deref().unwrap_or_default(),
         unit_of_all.as_deref().unwrap_or_default()
     )];
@@ -217,13 +226,10 @@ fn array_docs(layout: &Layout, entries: Range<usize>) -> Vec<String> {
     if entries.len() <= MOST_LISTED && !is_compact {
         docs.push(String::new());
         for (place, source) in sources.iter().enumerate() {
-            let name = for_docs(&source.name).unwrap_or_default();
-            let own_access = access.is_none().then(|| format!(", {}", source.access)).unwrap_or_default();
-            let own_unit = unit_of_all.is_none().then(|| unit(source)).unwrap_or_default();
-            docs.push(
-                format!(" - {place}: {name} `[{}]`{own_access}{own_unit}", source.section)
-                    .replace(":  `", ": `"),
-            );
+            let name = for_docs(&source.name).map_or_else(String::new, |name| format!("{name} "));
+            let own_access = if access.is_none() { format!(", {}", source.access) } else { String::new() };
+            let own_unit = if unit_of_all.is_none() { unit(source) } else { String::new() };
+            docs.push(format!(" - {place}: {name}`[{}]`{own_access}{own_unit}", source.section));
         }
     }
     docs
