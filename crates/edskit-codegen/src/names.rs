@@ -81,6 +81,9 @@ pub(crate) fn names(all: &[Named<'_>]) -> Vec<Name> {
         if taken.contains_key(&candidate) {
             candidate = place_name(named);
         }
+        while taken.contains_key(&candidate) {
+            candidate = with_place(&candidate, named);
+        }
         taken.insert(candidate.clone(), place);
         names.push(Name { name: candidate, reason });
     }
@@ -99,6 +102,9 @@ fn first_of(
         return None;
     }
     let name = words(object).to_ascii_uppercase();
+    if name.is_empty() {
+        return None;
+    }
     let first = *objects.entry(name).or_insert(place);
     (all[first].index != named.index).then_some(first)
 }
@@ -306,6 +312,34 @@ mod tests {
         ];
         assert_eq!(called(&all), wanted);
         assert_eq!(reasons(&all), [Some(Reason::Cut); 5]);
+    }
+
+    #[test]
+    fn no_name_is_there_twice() {
+        let texts = ["", "Speed", "speed", "Speed 2002", "Object 2001", "Object 2001 01 2001 01", "\u{901F}"];
+        let objects = [None, Some(""), Some("Speed"), Some("\u{5EA6}")];
+        let array = |object, name| Named { sub_index: None, ..named(0x2001, 1, object, name) };
+        for (first, second) in texts.into_iter().flat_map(|first| texts.map(|second| (first, second))) {
+            for object in objects {
+                let all = [
+                    array(object, ""),
+                    named(0x2001, 1, object, first),
+                    named(0x2001, 1, object, second),
+                    named(0x2002, 0, None, first),
+                    named(0x2003, 1, object, second),
+                    Named { given: Some("SPEED"), ..named(0x2004, 0, None, second) },
+                ];
+                let called = called(&all);
+                let is_name = |name: &String| {
+                    name.starts_with(|first: char| first.is_ascii_uppercase())
+                        && name
+                            .bytes()
+                            .all(|byte| byte == b'_' || byte.is_ascii_uppercase() || byte.is_ascii_digit())
+                };
+                assert!(called.iter().all(is_name), "{called:?}");
+                assert_eq!(called.iter().collect::<HashSet<_>>().len(), all.len(), "{called:?}");
+            }
+        }
     }
 
     #[test]

@@ -109,6 +109,18 @@ handles! {
     /// `T` is the type of its values, or one of [`VisibleString`](crate::VisibleString),
     /// [`OctetString`](crate::OctetString) and [`UnicodeString`](crate::UnicodeString). An object whose sub-objects have one
     /// type and no gap is an array of handles: sub-index 01h is at place 0.
+    ///
+    /// ```
+    /// use edskit_runtime::{Handle, Key, Objects, Position, VisibleString, WriteError};
+    ///
+    /// const SPEED: Handle<u32> = Handle::new(Position(4), Key::new(0x2000, 0));
+    /// const LOCATION: Handle<VisibleString> = Handle::new(Position(2), Key::new(0x1008, 0));
+    ///
+    /// fn begin(objects: &mut Objects<'_>) -> Result<(), WriteError> {
+    ///     objects.set(SPEED, 4711);
+    ///     objects.store(LOCATION, b"Pump")
+    /// }
+    /// ```
     Handle;
 
     /// An entry that cannot change, since it lies in flash: it can be read as with a [`Handle`], but not written.
