@@ -18,14 +18,14 @@ const INHIBIT_TIME: Index = Index(0x1015);
 
 /// A kind of error: its code and its bits of the error register (CiA 301 v4.2, 7.2.7.1 and 7.5.2.2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Error {
+pub struct EmcyError {
     /// The emergency error code, which is not 0000h.
     pub code: u16,
     /// The bits of the error register 1001h; bit 0, generic error, is added to all.
     pub register: u8,
 }
 
-impl Error {
+impl EmcyError {
     /// 6300h: stored parameters could not be loaded, the defaults are used.
     pub const LOST_PARAMETERS: Self = Self { code: 0x6300, register: 0 };
     /// 8110h: frames were lost because they could not be sent or taken in time.
@@ -67,12 +67,12 @@ pub struct Emergency {
 /// An error that is present. `source` tells errors of one kind apart: the number of a group or a sensor, say.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Present {
-    error: Error,
+    error: EmcyError,
     source: u16,
 }
 
 impl Present {
-    const NONE: Self = Self { error: Error::NONE, source: 0 };
+    const NONE: Self = Self { error: EmcyError::NONE, source: 0 };
 }
 
 #[derive(Debug)]
@@ -105,27 +105,30 @@ impl Emcy {
 
     /// The error register that follows from what is present.
     fn register(&self) -> u8 {
-        let present = self.present.iter().filter(|present| present.error != Error::NONE);
+        let present = self.present.iter().filter(|present| present.error != EmcyError::NONE);
         let own = (self.missing > 0 || self.overruns > 0 || self.others > 0)
-            .then_some(Error::COMMUNICATION | Error::GENERIC);
-        present.fold(own.unwrap_or(0), |all, present| all | present.error.register | Error::GENERIC)
+            .then_some(EmcyError::COMMUNICATION | EmcyError::GENERIC);
+        present.fold(own.unwrap_or(0), |all, present| all | present.error.register | EmcyError::GENERIC)
     }
 
     /// How many errors of this kind the services have found.
-    fn count(&mut self, error: Error) -> &mut u16 {
+    fn count(&mut self, error: EmcyError) -> &mut u16 {
         match error {
-            Error::HEARTBEAT => &mut self.missing,
-            Error::CAN_OVERRUN => &mut self.overruns,
+            EmcyError::HEARTBEAT => &mut self.missing,
+            EmcyError::CAN_OVERRUN => &mut self.overruns,
             _ => &mut self.others,
         }
     }
 
     /// What the red indicator shows: of several errors the one that stands first here.
     pub(crate) fn pattern(&self, bus_has_errors: bool) -> Pattern {
-        let has = |error: Error| self.present.iter().any(|present| present.error == error);
-        if self.missing > 0 || has(Error::HEARTBEAT) {
+        let has = |error: EmcyError| self.present.iter().any(|present| present.error == error);
+        if self.missing > 0 || has(EmcyError::HEARTBEAT) {
             Pattern::DoubleFlash
-        } else if bus_has_errors || self.overruns > 0 || has(Error::ERROR_PASSIVE) || has(Error::CAN_OVERRUN)
+        } else if bus_has_errors
+            || self.overruns > 0
+            || has(EmcyError::ERROR_PASSIVE)
+            || has(EmcyError::CAN_OVERRUN)
         {
             Pattern::SingleFlash
         } else {
@@ -140,16 +143,16 @@ impl Services<'_> {
     ///
     /// There is room for 32 errors of the device at once, whatever the services of the node find besides. A further one is
     /// told each time that it is raised, and is not in the error register afterwards.
-    pub fn raise(&mut self, error: Error, source: u16, info: [u8; 5]) {
+    pub fn raise(&mut self, error: EmcyError, source: u16, info: [u8; 5]) {
         if self.list(error, source) {
-            let emergency = self.compose(error.code, error.register | Error::GENERIC, info);
+            let emergency = self.compose(error.code, error.register | EmcyError::GENERIC, info);
             self.remember(error.code, info);
             self.send_emergency(emergency);
         }
     }
 
     /// An error of the device has gone.
-    pub fn clear(&mut self, error: Error, source: u16) {
+    pub fn clear(&mut self, error: EmcyError, source: u16) {
         if self.unlist(error, source) {
             let emergency = self.compose(0, 0, [0; 5]);
             self.send_emergency(emergency);
@@ -182,7 +185,7 @@ impl Services<'_> {
     }
 
     /// Puts an error among those that are present; false where it is there already.
-    fn list(&mut self, error: Error, source: u16) -> bool {
+    fn list(&mut self, error: EmcyError, source: u16) -> bool {
         let is_it = |present: &Present| present.error.code == error.code && present.source == source;
         let present = &mut self.core.emcy.present;
         if present.iter().any(is_it) {
@@ -195,7 +198,7 @@ impl Services<'_> {
     }
 
     /// Takes an error from those that are present; false where it is not there.
-    fn unlist(&mut self, error: Error, source: u16) -> bool {
+    fn unlist(&mut self, error: EmcyError, source: u16) -> bool {
         let wanted = Present { error, source };
         let present = self.core.emcy.present.iter_mut().find(|present| **present == wanted);
         present.map(|present| *present = Present::NONE).is_some()
@@ -256,14 +259,14 @@ impl Services<'_> {
 
 impl<A: Application + ?Sized> Context<'_, A> {
     /// The node itself has found an error that is in its list, as it is not one of a service.
-    pub(crate) fn raise(&mut self, error: Error, source: u16, info: [u8; 5]) {
+    pub(crate) fn raise(&mut self, error: EmcyError, source: u16, info: [u8; 5]) {
         if self.app.counts(error) && self.node.list(error, source) {
             self.occurred(error, info);
         }
     }
 
     /// Such an error has gone.
-    pub(crate) fn clear(&mut self, error: Error, source: u16) {
+    pub(crate) fn clear(&mut self, error: EmcyError, source: u16) {
         if self.node.unlist(error, source) {
             self.tell(0, 0, [0; 5]);
         }
@@ -271,7 +274,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
 
     /// A service finds an error present or not, which it has found so or not before.
     #[inline(never)]
-    pub(crate) fn found(&mut self, error: Error, was_present: bool, is_present: bool, info: [u8; 5]) {
+    pub(crate) fn found(&mut self, error: EmcyError, was_present: bool, is_present: bool, info: [u8; 5]) {
         if was_present == is_present || !self.app.counts(error) {
             return;
         }
@@ -286,9 +289,9 @@ impl<A: Application + ?Sized> Context<'_, A> {
     }
 
     #[inline(never)]
-    fn occurred(&mut self, error: Error, info: [u8; 5]) {
+    fn occurred(&mut self, error: EmcyError, info: [u8; 5]) {
         self.node.remember(error.code, info);
-        self.tell(error.code, error.register | Error::GENERIC, info);
+        self.tell(error.code, error.register | EmcyError::GENERIC, info);
     }
 
     /// Tells by a message that an error has occurred, or with the code 0000h that one has gone.

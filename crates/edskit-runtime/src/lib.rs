@@ -10,7 +10,7 @@
 //! | the object dictionary | [`Dictionary`], [`Objects`], [`Handle`], [`Table`], [`Entry`], [`Flags`] |
 //! | what a device adds | [`Application`], [`Storage`] |
 //! | what a main loop drives | [`Device`], [`NodeDevice`] |
-//! | errors | [`Error`], [`Emergency`] |
+//! | errors | [`EmcyError`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
 //! | for SDO clients too | [`Crc`] |
 //!
@@ -115,7 +115,7 @@ pub use device::{Device, NodeDevice};
 pub use dictionary::{
     Dictionary, Entry, Flags, Handle, Limits, Memory, Objects, Parts, Position, StorageGroup, Table, Value,
 };
-pub use emcy::{Emergency, Error};
+pub use emcy::{EmcyError, Emergency};
 pub use frame::{Frame, MOST_DATA};
 pub use heartbeat::HeartbeatConsumer;
 pub use led::{Leds, Pattern};

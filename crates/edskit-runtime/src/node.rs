@@ -169,7 +169,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
         self.context(now, app).enter(state);
     }
 
-    /// The CAN controller is in another state. Error passive is told by EMCY 8120h while it lasts, and a recovery from bus-off
+    /// The CAN controller is in another state. EmcyError passive is told by EMCY 8120h while it lasts, and a recovery from bus-off
     /// by 8140h; bus-off is a communication error to which the node reacts as 1029h says
     /// ([`Application::reaction`]). The red indicator shows each.
     pub fn bus_state(&mut self, now: Instant, state: BusState, app: &mut (impl Application + ?Sized)) {
@@ -182,10 +182,10 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     /// TPDO, and so on.
     ///
     /// ```
-    /// use edskit_runtime::{Dictionary, Error, Instant, Node, Storage};
+    /// use edskit_runtime::{Dictionary, EmcyError, Instant, Node, Storage};
     ///
     /// fn too_hot<D: Dictionary, S: Storage>(node: &mut Node<D, S>, now: Instant) {
-    ///     node.services(now).raise(Error { code: 0x4210, register: 1 << 3 }, 0, [0; 5]);
+    ///     node.services(now).raise(EmcyError { code: 0x4210, register: 1 << 3 }, 0, [0; 5]);
     /// }
     /// ```
     pub fn services(&mut self, now: Instant) -> Services<'_> {

@@ -9,7 +9,9 @@ use super::super::{Configuration, Pdo};
 use super::Plant;
 use super::side::Phase;
 use crate::gateway::dictionary::canopen_gateway::objects as entries;
-use edskit_runtime::{Application, Emergency, Entry, Error, Microseconds, Objects, Reset, Services, Storage};
+use edskit_runtime::{
+    Application, EmcyError, Emergency, Entry, Microseconds, Objects, Reset, Services, Storage,
+};
 use edskit_types::{AbortCode, Index, NmtState, PdoDirection};
 
 /// The objects with process data, whose size depends on the configuration.
@@ -123,7 +125,7 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
 
     /// There are no EMCY messages (GW-OD-21), but the node says by one that its transmit buffer was full.
     fn emergency(&mut self, _: &mut Services<'_>, emergency: &mut Emergency) {
-        self.gateway.has_overflown |= emergency.code == Error::CAN_OVERRUN.code;
+        self.gateway.has_overflown |= emergency.code == EmcyError::CAN_OVERRUN.code;
     }
 }
 
