@@ -69,7 +69,7 @@ impl Device for Edskit {
                 handles::TRANSMITTED_BYTES[0].position()
             }
         };
-        self.node.value_changed(self.now, position);
+        self.node.services(self.now).changed(position);
     }
 
     fn received(&mut self, mapping: Mapping) -> Vec<u8> {

@@ -19,7 +19,8 @@
 //! ```
 //! use edskit_runtime::types::{AbortCode, CanId, DataType, Index, SubIndex};
 //! use edskit_runtime::{
-//!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Key, Memory, NoStorage, Node, Objects, Parts, Position,
+//!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Key, Memory, NoStorage, Node, Parts, Position,
+//!     Services,
 //!     Settings, Table,
 //! };
 //!
@@ -56,9 +57,9 @@
 //! struct Sensor;
 //!
 //! impl Application for Sensor {
-//!     fn before_read(&mut self, objects: &mut Objects<'_>, entry: &Entry) -> Result<(), AbortCode> {
+//!     fn before_read(&mut self, node: &mut Services<'_>, entry: &Entry) -> Result<(), AbortCode> {
 //!         if entry.is(TEMPERATURE) {
-//!             objects.set(TEMPERATURE, 215);
+//!             node.objects.set(TEMPERATURE, 215);
 //!         }
 //!         Ok(())
 //!     }
@@ -86,6 +87,7 @@ extern crate std;
 
 mod access;
 mod application;
+mod bus_state;
 mod context;
 mod crc;
 mod device;
@@ -103,12 +105,14 @@ mod pdo;
 mod queue;
 mod ring;
 mod sdo;
+mod services;
 mod storage;
 mod sync;
 mod time;
 mod time_stamp;
 
 pub use application::{Application, NoApplication, Reset, TimeOfDay};
+pub use bus_state::BusState;
 pub use crc::Crc;
 pub use device::{Device, NodeDevice};
 pub use dictionary::{
@@ -120,10 +124,11 @@ pub use emcy::{EmcyError, Emergency};
 pub use frame::{Frame, MOST_DATA};
 pub use heartbeat::HeartbeatConsumer;
 pub use led::{Leds, Pattern};
-pub use lss::Commissioning;
+pub use lss::{Commissioning, LssAnswer, LssRequest};
 pub use node::{Node, Settings};
-pub use pdo::{Mapped, NotSent, Rpdo, Tpdo};
+pub use pdo::{Mapped, NotSent, PdoPolicy, Remapping, Rpdo, Tpdo};
 pub use sdo::SdoServer;
+pub use services::Services;
 pub use storage::{NoStorage, Record, Storage, StorageError};
 pub use time::{Instant, Microseconds};
 

@@ -43,6 +43,21 @@ impl Entry {
         handles.iter().position(|handle| self.is(*handle))
     }
 
+    /// An entry that no table holds: what a device tells of a value that it has itself
+    /// ([`Application::find`](crate::Application::find)).
+    ///
+    /// `size` is its length in bytes; for texts and octets the most that it can have.
+    #[must_use]
+    pub const fn of_device(
+        index: Index,
+        sub_index: SubIndex,
+        data_type: DataType,
+        flags: Flags,
+        size: u16,
+    ) -> Self {
+        Self { index, sub_index, data_type, flags, offset: 0, size }
+    }
+
     /// Whether the value has its present length in front: a text that can change.
     pub(crate) const fn has_length(&self) -> bool {
         self.data_type.is_string() && self.flags.has(Flags::VARIABLE)

@@ -159,6 +159,12 @@ impl<T> Handle<T> {
     }
 }
 
+impl<T> From<Handle<T>> for Position {
+    fn from(handle: Handle<T>) -> Self {
+        handle.position
+    }
+}
+
 /// A DOMAIN, whose data the [`Application`](crate::Application) has: it can be recognised by its handle, and neither read
 /// nor written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

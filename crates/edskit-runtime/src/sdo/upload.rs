@@ -1,11 +1,13 @@
 //! Uploads: the client reads, expedited or in segments.
 
 use super::{EXPEDITED, Item, Next, SEGMENT, Session, Step, TOGGLE, Transfer};
+use crate::Application;
 use crate::context::Context;
+use edskit_types::AbortCode;
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_upload(&mut self, number: usize, session: &mut Session) -> Step {
-        self.open_source(&mut session.item)?;
+        self.open_source(number, &mut session.item)?;
         self.begin_upload_of(number, session)
     }
 
@@ -20,6 +22,9 @@ impl Context<'_> {
             let command = 0x43 | ((EXPEDITED - length as usize) as u8) << 2;
             self.answer_about(number, command, item, data);
             return Ok(Next::End);
+        }
+        if !self.node.core.settings.has_segmented_transfer {
+            return Err(AbortCode::UNKNOWN_COMMAND);
         }
         self.hold_source(number, item);
         let command = 0x40 | u8::from(item.length.is_some());

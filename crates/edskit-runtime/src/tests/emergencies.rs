@@ -1,6 +1,6 @@
 use super::device::{Builder, COB_ID, RO, RW, plain};
 use super::{Bench, frame};
-use crate::{EmcyError, NoApplication};
+use crate::EmcyError;
 use edskit_types::{EmergencyCode, ErrorRegister};
 use std::vec::Vec;
 
@@ -13,7 +13,7 @@ const HOT: EmcyError =
     EmcyError::new(EmergencyCode::DEVICE_TEMPERATURE.with(0x10), ErrorRegister::TEMPERATURE);
 
 fn raise(bench: &mut Bench, error: EmcyError, source: u16) {
-    bench.node.raise(bench.now, error, source, [1, 2, 3, 4, 5], &mut NoApplication);
+    bench.node.services(bench.now).raise(error, source, [1, 2, 3, 4, 5]);
 }
 
 #[test]
@@ -25,7 +25,7 @@ fn an_error_is_told_remembered_and_cleared() {
     assert_eq!((bench.read(0x1001, 0), bench.read(0x1003, 0)), (Ok([9].into()), Ok([1].into())));
     assert_eq!(bench.read(0x1003, 1), Ok([0x10, 0x42, 1, 2].into()));
     assert_eq!(bench.read(0x1003, 2), Err(0x0800_0024));
-    bench.node.clear(bench.now, HOT, 0, &mut NoApplication);
+    bench.node.services(bench.now).clear(HOT, 0);
     assert_eq!(bench.poll(), [frame(0x85, &[0; 8])]);
     assert_eq!(bench.read(0x1001, 0), Ok([0].into()));
     assert_eq!(bench.write(0x1003, 0, &[1]), Err(0x0609_0030));
@@ -64,7 +64,7 @@ fn an_invalid_cob_id_keeps_emergencies_back() {
     assert!(bench.poll().is_empty());
     assert_eq!(bench.read(0x1001, 0), Ok([9].into()));
     bench.write(0x1014, 0, &[0x86, 0, 0, 0]).unwrap();
-    bench.node.clear(bench.now, HOT, 0, &mut NoApplication);
+    bench.node.services(bench.now).clear(HOT, 0);
     assert_eq!(bench.poll(), [frame(0x86, &[0; 8])]);
 }
 

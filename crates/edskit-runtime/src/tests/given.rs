@@ -3,7 +3,7 @@
 use super::device::{RO, RW, with_values};
 use super::storage::Memory;
 use super::{Bench, frame};
-use crate::{Application, Flags, Key, Objects, Reset, Storage, StorageGroup};
+use crate::{Application, Flags, Key, Reset, Services, Storage, StorageGroup};
 use edskit_types::{Index, SubIndex};
 use std::boxed::Box;
 use std::cell::RefCell;
@@ -86,7 +86,7 @@ fn lss_knows_the_node_by_what_is_given() {
 struct Dropped(Rc<RefCell<Vec<(Index, SubIndex)>>>);
 
 impl Application for Dropped {
-    fn stored_value_dropped(&mut self, _: &mut Objects<'_>, index: Index, sub_index: SubIndex) {
+    fn stored_value_dropped(&mut self, _: &mut Services<'_>, index: Index, sub_index: SubIndex) {
         self.0.borrow_mut().push((index, sub_index));
     }
 }

@@ -7,6 +7,7 @@ mod emergencies;
 mod error_changes;
 mod error_control;
 mod given;
+mod hooks;
 mod hostile;
 mod lss;
 mod nmt;

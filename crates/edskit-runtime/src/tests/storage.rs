@@ -1,6 +1,6 @@
 use super::device::{COB_ID, RW, with_values};
 use super::{Bench, frame};
-use crate::{Application, NoApplication, NoStorage, Objects, Record, Storage, StorageError, StorageGroup};
+use crate::{Application, NoApplication, NoStorage, Record, Services, Storage, StorageError, StorageGroup};
 use edskit_types::{DataType, Index, SubIndex};
 use std::boxed::Box;
 use std::cell::RefCell;
@@ -176,7 +176,7 @@ fn revision(
 struct Dropped(Rc<RefCell<Vec<u16>>>);
 
 impl Application for Dropped {
-    fn stored_value_dropped(&mut self, _: &mut Objects<'_>, index: Index, _: SubIndex) {
+    fn stored_value_dropped(&mut self, _: &mut Services<'_>, index: Index, _: SubIndex) {
         self.0.borrow_mut().push(index.0);
     }
 }
