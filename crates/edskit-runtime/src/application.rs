@@ -1,6 +1,8 @@
 //! What a device adds to CiA 301, and where it differs.
 
-use crate::{Commissioning, Emergency, Entry, Error, LssAnswer, LssRequest, Microseconds, Record, Services};
+use crate::{
+    Commissioning, EmcyError, Emergency, Entry, LssAnswer, LssRequest, Microseconds, Record, Services,
+};
 use edskit_types::{
     AbortCode, Bitrate, Index, NmtState, NodeId, PdoDirection, SubIndex, Transmission, TransmissionType,
 };
@@ -177,7 +179,7 @@ pub trait Application {
 
     /// A stored value has no place any more, since an update has changed the dictionary: there is no such entry, it is not
     /// stored now, or it cannot have this value. The last of these is an error of the device too
-    /// ([`Error::LOST_PARAMETERS`](crate::Error::LOST_PARAMETERS)), and the entry has its default.
+    /// ([`EmcyError::LOST_PARAMETERS`](crate::EmcyError::LOST_PARAMETERS)), and the entry has its default.
     fn stored_value_dropped(&mut self, node: &mut Services<'_>, index: Index, sub_index: SubIndex) {
         let _ = (node, index, sub_index);
     }
@@ -232,11 +234,11 @@ pub trait Application {
     }
 
     /// What follows from a serious error of communication: the guarding by the master or the heartbeat of another node is
-    /// missing ([`Error::HEARTBEAT`]), or the bus is off ([`Error::BUS_OFF`]). `prescribed` is what 1029h sub-index 01h says.
+    /// missing ([`EmcyError::HEARTBEAT`]), or the bus is off ([`EmcyError::BUS_OFF`]). `prescribed` is what 1029h sub-index 01h says.
     fn reaction(
         &mut self,
         node: &mut Services<'_>,
-        error: Error,
+        error: EmcyError,
         prescribed: Option<NmtState>,
     ) -> Option<NmtState> {
         let _ = (node, error);
@@ -315,10 +317,10 @@ pub trait Application {
         let _ = (node, node_id, state);
     }
 
-    /// Whether an error that the services of the node find ([`Error`]'s constants) is one of the device: it is told by EMCY,
+    /// Whether an error that the services of the node find ([`EmcyError`]'s constants) is one of the device: it is told by EMCY,
     /// and is in 1001h and 1003h. The place for a manual whose error register follows the device alone. The answer for an
     /// error is always the same.
-    fn counts(&mut self, error: Error) -> bool {
+    fn counts(&mut self, error: EmcyError) -> bool {
         let _ = error;
         true
     }

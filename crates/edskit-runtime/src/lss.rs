@@ -3,7 +3,7 @@
 use crate::Application;
 use crate::context::Context;
 use crate::storage::{Reader, Record};
-use crate::{Error, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
+use crate::{EmcyError, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
 use edskit_types::{Bitrate, CanId, Index, NodeId};
 
 /// The identifier of answers, 7E4h.
@@ -347,7 +347,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         // The complement tells a torn record from a right one.
         self.node.storage.write(Record::Lss, &[node_id, !node_id, low, high, !low, !high])?;
         self.node.storage.commit(Record::Lss)?;
-        self.clear(Error::LOST_PARAMETERS, SOURCE);
+        self.clear(EmcyError::LOST_PARAMETERS, SOURCE);
         Ok(())
     }
 }
