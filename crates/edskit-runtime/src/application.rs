@@ -47,7 +47,7 @@ pub trait Application {
     /// Whether a value that an SDO client or an RPDO writes is an event of the TPDOs that carry it, as the transmission types
     /// 00h, FEh and FFh send them; it is none where the value is the same as before. CiA 301 leaves that open. By default
     /// it is none: the device knows which of its values are events, and says so by
-    /// [`Node::value_changed`](crate::Node::value_changed).
+    /// [`Services::changed`].
     fn write_is_event(&mut self, node: &Services<'_>, entry: &Entry) -> bool {
         let _ = (node, entry);
         false
@@ -107,7 +107,7 @@ pub trait Application {
     /// place for a manual that checks in another order than CiA 301 servers do.
     ///
     /// # Errors
-    /// The abort code that the client gets; by default those of [`Objects::check_write`].
+    /// The abort code that the client gets; by default those of [`Objects::check_write`](crate::Objects::check_write).
     fn check_write(
         &mut self,
         node: &Services<'_>,
