@@ -6,7 +6,7 @@
 use edskit_codegen::{LoadedDictionary, parse};
 use edskit_host::sdo::{SdoChannel, SdoError, SdoMode, SdoOptions, Transfer};
 use edskit_runtime::{
-    Application, Entry, Error, Frame, Instant, Microseconds, Node, Objects, Record, Settings, Storage,
+    Application, EmcyError, Entry, Frame, Instant, Microseconds, Node, Record, Services, Settings, Storage,
     StorageError,
 };
 use edskit_tests::allocation::{self, Counting};
@@ -84,9 +84,9 @@ fn error_control(watched: &mut Watched<'_>) {
     let sent = watched.pass(50);
     assert!(sent.contains(&frame(0x705, &[127])), "the node has left operational: {sent:?}");
     assert!(sent.iter().any(|frame| frame.data().starts_with(&[0x30, 0x81])), "{sent:?}");
-    let error = Error { code: 0x4200, register: 8 };
-    watched.counted(|node, device, now| node.raise(now, error, 1, [0; 5], device));
-    watched.counted(|node, device, now| node.clear(now, error, 1, device));
+    let error = EmcyError { code: 0x4200, register: 8 };
+    watched.counted(|node, _, now| node.services(now).raise(error, 1, [0; 5]));
+    watched.counted(|node, _, now| node.services(now).clear(error, 1));
     let told = watched.pass(0).into_iter().filter(|frame| frame.can_id().raw() == 0x85).count();
     assert_eq!(told, 2);
 }
@@ -201,13 +201,13 @@ impl<'a> Watched<'a> {
 struct FixedDevice([u8; 1000], usize);
 
 impl Application for FixedDevice {
-    fn domain_length(&mut self, _: &mut Objects<'_>, _: &Entry) -> Result<Option<u32>, AbortCode> {
+    fn domain_length(&mut self, _: &mut Services<'_>, _: &Entry) -> Result<Option<u32>, AbortCode> {
         Ok(Some(self.1 as u32))
     }
 
     fn read_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         _: &Entry,
         offset: u32,
         buffer: &mut [u8],
@@ -220,7 +220,7 @@ impl Application for FixedDevice {
 
     fn write_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         _: &Entry,
         offset: u32,
         data: &[u8],

@@ -2,7 +2,9 @@
 
 use edskit_codegen::{Layout, LoadedDictionary, parse};
 use edskit_host::MemoryStorage;
-use edskit_runtime::{Application, Emergency, Entry, Flags, Frame, Instant, Node, Objects, Settings};
+use edskit_runtime::{
+    Application, Emergency, Entry, Flags, Frame, Instant, Key, Node, Objects, Services, Settings,
+};
 use edskit_types::{CanId, Index, NodeId, SubIndex};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -90,11 +92,11 @@ struct Notes {
 }
 
 impl Application for Notes {
-    fn stored_value_dropped(&mut self, _: &mut Objects<'_>, index: Index, _: SubIndex) {
+    fn stored_value_dropped(&mut self, _: &mut Services<'_>, index: Index, _: SubIndex) {
         self.dropped.push(index);
     }
 
-    fn emergency(&mut self, _: &mut Objects<'_>, emergency: &Emergency) {
+    fn emergency(&mut self, _: &mut Services<'_>, emergency: &mut Emergency) {
         self.has_lost |= emergency.code == 0x6300;
     }
 }
@@ -169,7 +171,8 @@ proptest! {
         for (index, value) in &stored {
             if let Ok(position) = old_layout.table().find(Index(*index), SubIndex(0)) {
                 let size = usize::from(old_layout.entries[usize::from(position.0)].size);
-                node.objects().store(position, &value[..size.min(value.len())]);
+                let stored = node.objects().store_by_key(Key::new(*index, 0), &value[..size.min(value.len())]);
+                prop_assert_eq!(stored, Ok(()));
             }
         }
         let saved = values(&old_layout, &node.objects());

@@ -4,12 +4,12 @@ use crate::emcy::Emcy;
 use crate::guarding::Guarding;
 use crate::heartbeat::{HeartbeatConsumer, Producer};
 use crate::lss::Lss;
-use crate::pdo::{Mapped, Rpdo, Tpdo};
+use crate::pdo::Rpdo;
 use crate::queue::Queue;
-use crate::sdo::SdoServer;
+use crate::services::{Requests, Services};
 use crate::sync::Sync;
-use crate::{Application, Frame, Instant, Objects, Settings, Storage};
-use edskit_types::{AbortCode, CanId, CobId, Index, NmtState, NodeId};
+use crate::{Application, BusState, Frame, Instant, Microseconds, Settings};
+use edskit_types::{CanId, NmtState, NodeId};
 
 /// The state of a node besides its dictionary.
 #[derive(Debug)]
@@ -29,8 +29,14 @@ pub(crate) struct Core {
     pub(crate) queue: Queue,
     /// Whether frames were being lost when that was looked at last.
     pub(crate) has_overrun: bool,
+    /// What the CAN controller tells of the bus.
+    pub(crate) bus_state: BusState,
     /// The TPDO for which the queue had no room, counted from 0: it is the next one.
     pub(crate) next_tpdo: u16,
+    /// What the device has asked for within a call.
+    pub(crate) requests: Requests,
+    /// How long the answer to the present request is held back.
+    pub(crate) answer_delay: Microseconds,
     /// How many values of RPDOs were refused.
     pub(crate) refused_values: u32,
     pub(crate) emcy: Emcy,
@@ -40,22 +46,13 @@ pub(crate) struct Core {
     pub(crate) lss: Lss,
 }
 
-/// One call of the node: the time, the dictionary, the state, and those who are asked.
-pub(crate) struct Context<'a> {
-    pub(crate) now: Instant,
-    pub(crate) objects: Objects<'a>,
-    pub(crate) rpdos: &'a mut [Rpdo],
-    pub(crate) tpdos: &'a mut [Tpdo],
-    pub(crate) mapped: &'a mut [Mapped],
-    pub(crate) servers: &'a mut [SdoServer],
-    pub(crate) consumers: &'a mut [HeartbeatConsumer],
-    pub(crate) buffers: &'a mut [u8],
-    pub(crate) core: &'a mut Core,
-    pub(crate) app: &'a mut dyn Application,
-    pub(crate) storage: &'a mut dyn Storage,
+/// One call of the node: what the device is given with each of its calls, and the device.
+pub(crate) struct Context<'a, A: ?Sized> {
+    pub(crate) node: Services<'a>,
+    pub(crate) app: &'a mut A,
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes a frame from the bus.
     pub(crate) fn receive(&mut self, frame: &Frame) {
         let can_id = frame.can_id();
@@ -64,9 +61,9 @@ impl Context<'_> {
             return;
         }
         match can_id.raw() {
-            0x7E5 if self.core.settings.has_lss => self.lss_request(frame),
+            0x7E5 if self.node.core.settings.has_lss => self.lss_request(frame),
             // Without a node-ID there is nothing but LSS.
-            _ if self.core.node_id.is_none() => {}
+            _ if self.node.core.node_id.is_none() => {}
             0 => self.nmt_command(frame),
             0x701..=0x77F if frame.is_remote() => self.guarding_request(can_id),
             0x701..=0x77F => self.heartbeat_received(can_id, frame),
@@ -80,9 +77,9 @@ impl Context<'_> {
             self.tpdo_requested(can_id);
             return;
         }
-        if self.core.sync.is(can_id) {
+        if self.node.core.sync.is(can_id) {
             self.sync_received(frame);
-        } else if let Some(number) = self.servers.iter().position(|server| server.takes(can_id)) {
+        } else if let Some(number) = self.node.servers.iter().position(|server| server.takes(can_id)) {
             self.sdo_request(number, frame);
         } else if !self.rpdo_received(can_id, frame) && self.is_time(can_id) {
             self.time_received(frame);
@@ -91,17 +88,18 @@ impl Context<'_> {
 
     /// Does what is due.
     pub(crate) fn poll(&mut self) {
-        if !self.core.has_started {
+        if !self.node.core.has_started {
             self.power_on();
-        } else if self.core.is_held {
+        } else if self.node.core.is_held {
             self.boot_up();
         }
-        if self.core.is_held {
+        if self.node.core.is_held {
             return;
         }
-        if self.core.queue.take_overflow() {
+        self.do_requests();
+        if self.node.core.queue.take_overflow() {
             self.overrun_found(true);
-        } else if self.core.queue.room() > 0 {
+        } else if self.node.core.has_overrun && self.node.core.queue.room() > 0 {
             self.overrun_found(false);
         }
         self.poll_heartbeat();
@@ -111,60 +109,38 @@ impl Context<'_> {
         self.poll_servers();
         self.poll_rpdos();
         self.poll_tpdos();
-        self.send_emergencies();
+        self.node.send_emergencies();
     }
 
     /// Whether frames are being lost.
     fn overrun_found(&mut self, is_present: bool) {
-        let was_present = core::mem::replace(&mut self.core.has_overrun, is_present);
-        self.found(crate::Error::CAN_OVERRUN, was_present, is_present, [0; 5]);
+        let was_present = core::mem::replace(&mut self.node.core.has_overrun, is_present);
+        self.found(crate::EmcyError::CAN_OVERRUN, was_present, is_present, [0; 5]);
     }
 
     /// When there will be something to do.
     pub(crate) fn next_deadline(&self) -> Instant {
-        if !self.core.has_started {
-            return self.now;
+        if !self.node.core.has_started || self.node.core.requests.is_some() && !self.node.core.is_held {
+            return self.node.now;
         }
-        if self.core.is_held {
+        if self.node.core.is_held {
             return Instant::NEVER;
         }
-        let has_room = self.core.queue.room() > 0;
+        let has_room = self.node.core.queue.room() > 0;
         // What only the queue holds back is due when it has room.
         let with_room =
-            |deadline: Instant| if has_room || deadline > self.now { deadline } else { Instant::NEVER };
+            |deadline: Instant| if has_room || deadline > self.node.now { deadline } else { Instant::NEVER };
         let services = [
-            with_room(self.core.producer.deadline()),
-            self.core.guarding.deadline(),
-            with_room(self.core.sync.deadline()),
-            self.emcy_deadline(),
+            with_room(self.node.core.producer.deadline()),
+            self.node.core.guarding.deadline(),
+            with_room(self.node.core.sync.deadline()),
+            self.node.emcy_deadline(),
         ];
-        let consumers = self.consumers.iter().map(HeartbeatConsumer::deadline);
-        let servers = self.servers.iter().map(|server| server.deadline(has_room));
-        let rpdos = self.rpdos.iter().map(Rpdo::deadline);
-        let tpdos = self.tpdos.iter().map(|tpdo| tpdo.deadline(self.now, has_room));
+        let consumers = self.node.consumers.iter().map(HeartbeatConsumer::deadline);
+        let servers = self.node.servers.iter().map(|server| server.deadline(has_room));
+        let rpdos = self.node.rpdos.iter().map(Rpdo::deadline);
+        let tpdos = self.node.tpdos.iter().map(|tpdo| tpdo.deadline(self.node.now, has_room));
         let all = services.into_iter().chain(consumers).chain(servers).chain(rpdos).chain(tpdos);
-        all.min().unwrap_or(Instant::NEVER).max(self.now)
-    }
-
-    /// Whether the node is in a state in which SDO, SYNC, EMCY and TIME work.
-    pub(crate) fn is_communicating(&self) -> bool {
-        matches!(self.core.state, NmtState::PreOperational | NmtState::Operational)
-    }
-
-    /// What holds for every COB-ID: 29-bit identifiers are not supported, and what CiA 301, or the device in its place,
-    /// restricts cannot be used by a valid one.
-    pub(crate) fn check_cob_id(&self, cob_id: CobId) -> Result<(), AbortCode> {
-        if self.core.settings.identifiers.fault(cob_id).is_some() {
-            return Err(AbortCode::INVALID_VALUE);
-        }
-        Ok(())
-    }
-
-    /// The identifier in an entry whose bit 31 says that the service does not exist; `None` where it says so, and where the
-    /// value is one that a client could not write.
-    #[inline(never)]
-    pub(crate) fn valid_can_id(&self, index: Index, sub_index: u8) -> Option<CanId> {
-        let cob_id = self.objects.value(index, sub_index).map(CobId)?;
-        (cob_id.is_valid() && self.check_cob_id(cob_id).is_ok()).then(|| cob_id.can_id())
+        all.min().unwrap_or(Instant::NEVER).max(self.node.now)
     }
 }

@@ -24,6 +24,10 @@ impl Frame {
     /// A data frame; bytes beyond the eighth are left out.
     #[must_use]
     pub fn new(can_id: CanId, data: &[u8]) -> Self {
+        // Most frames are full, and a full one is copied at once.
+        if let Ok(data) = data.try_into() {
+            return Self { can_id, is_remote: false, length: MOST_DATA as u8, data };
+        }
         let mut frame = Self { can_id, is_remote: false, length: 0, data: [0; MOST_DATA] };
         for (place, byte) in frame.data.iter_mut().zip(data) {
             *place = *byte;

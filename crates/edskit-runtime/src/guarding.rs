@@ -1,9 +1,10 @@
 //! Node guarding and life guarding (CiA 301 v4.2, 7.2.8.3.1).
 
+use crate::Application;
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
-use crate::{Error, Instant, Microseconds};
+use crate::{EmcyError, Instant, Microseconds};
 use edskit_types::{CanId, Index};
 
 const GUARD_TIME: Index = Index(0x100C);
@@ -28,59 +29,59 @@ impl Guarding {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// A remote frame with the identifier of a heartbeat. Heartbeat has precedence over guarding, and a device without
     /// 100Ch knows no guarding.
     pub(crate) fn guarding_request(&mut self, can_id: CanId) {
-        let own = self.core.node_id.map(error_control);
-        let is_guarded = self.objects.value::<u16>(GUARD_TIME, 0).is_some();
-        if own != Some(can_id) || !is_guarded || self.core.producer.is_running() {
+        let own = self.node.core.node_id.map(error_control);
+        let is_guarded = self.node.objects.value::<u16>(GUARD_TIME, 0).is_some();
+        if own != Some(can_id) || !is_guarded || self.node.core.producer.is_running() {
             return;
         }
         // The toggle bit tells the master which answers were sent.
-        if self.core.queue.room() > 0 {
-            let toggle = u8::from(self.core.guarding.toggle) << 7;
-            self.core.queue.send(can_id, &[toggle | self.core.state.code()]);
-            self.core.guarding.toggle = !self.core.guarding.toggle;
+        if self.node.core.queue.room() > 0 {
+            let toggle = u8::from(self.node.core.guarding.toggle) << 7;
+            self.node.core.queue.send(can_id, &[toggle | self.node.core.state.code()]);
+            self.node.core.guarding.toggle = !self.node.core.guarding.toggle;
         } else {
-            self.core.queue.note_loss();
+            self.node.core.queue.note_loss();
         }
-        self.core.guarding.life = Timer::after(self.now, self.life_time());
+        self.node.core.guarding.life = Timer::after(self.node.now, self.life_time());
         self.master_found(false);
     }
 
     /// Whether the requests of the master are missing.
     fn master_found(&mut self, is_missing: bool) {
-        let was_missing = core::mem::replace(&mut self.core.guarding.is_missing, is_missing);
-        self.found(Error::HEARTBEAT, was_missing, is_missing, [0; 5]);
+        let was_missing = core::mem::replace(&mut self.node.core.guarding.is_missing, is_missing);
+        self.found(EmcyError::HEARTBEAT, was_missing, is_missing, [0; 5]);
     }
 
     /// Guarding ends with all it had: there is one error control protocol at a time (7.2.8.3).
     pub(crate) fn end_guarding(&mut self) {
         self.master_found(false);
-        self.core.guarding = Guarding::new();
+        self.node.core.guarding = Guarding::new();
     }
 
     /// The product of 100Ch and 100Dh.
     fn life_time(&self) -> Microseconds {
-        let guard_time: u16 = self.objects.value(GUARD_TIME, 0).unwrap_or_default();
-        let factor: u8 = self.objects.value(LIFE_TIME_FACTOR, 0).unwrap_or_default();
+        let guard_time: u16 = self.node.objects.value(GUARD_TIME, 0).unwrap_or_default();
+        let factor: u8 = self.node.objects.value(LIFE_TIME_FACTOR, 0).unwrap_or_default();
         Microseconds::from_milliseconds(u32::from(guard_time) * u32::from(factor))
     }
 
     /// What follows from 100Ch and 100Dh: a life time that runs begins anew, and an error of the old one is none any more.
     pub(crate) fn guarding_changed(&mut self) {
         self.master_found(false);
-        if self.core.guarding.life.is_running() {
-            self.core.guarding.life = Timer::after(self.now, self.life_time());
+        if self.node.core.guarding.life.is_running() {
+            self.node.core.guarding.life = Timer::after(self.node.now, self.life_time());
         }
     }
 
     pub(crate) fn poll_guarding(&mut self) {
-        if self.core.guarding.life.is_due(self.now) {
-            self.core.guarding.life = Timer::OFF;
+        if self.node.core.guarding.life.is_due(self.node.now) {
+            self.node.core.guarding.life = Timer::OFF;
             self.master_found(true);
-            self.react_to_communication_error();
+            self.react_to_communication_error(EmcyError::HEARTBEAT);
         }
     }
 }

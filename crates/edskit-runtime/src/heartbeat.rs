@@ -1,9 +1,10 @@
 //! Heartbeat: producer 1017h and consumer 1016h (CiA 301 v4.2, 7.2.8.3.2).
 
+use crate::Application;
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
-use crate::{Error, Frame, Instant, Microseconds};
+use crate::{EmcyError, Frame, Instant, Microseconds};
 use edskit_types::{AbortCode, CanId, Index, NmtState, NodeId, SubIndex};
 
 #[derive(Debug)]
@@ -58,9 +59,9 @@ impl HeartbeatConsumer {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn heartbeat_time(&mut self) -> Microseconds {
-        let milliseconds: u16 = self.objects.value(Index::PRODUCER_HEARTBEAT, 0).unwrap_or_default();
+        let milliseconds: u16 = self.node.objects.value(Index::PRODUCER_HEARTBEAT, 0).unwrap_or_default();
         self.app.heartbeat_time(Microseconds::from_milliseconds(milliseconds.into()))
     }
 
@@ -68,32 +69,34 @@ impl Context<'_> {
     pub(crate) fn heartbeat_time_changed(&mut self) {
         let period = self.heartbeat_time();
         if period.0 == 0 {
-            self.core.producer = Producer::OFF;
+            self.node.core.producer = Producer::OFF;
             return;
         }
-        self.core.producer = Producer { timer: Timer::at(self.now), period };
+        self.node.core.producer = Producer { timer: Timer::at(self.node.now), period };
         self.end_guarding();
         self.poll_heartbeat();
     }
 
     /// Sends the heartbeat when it is due, or as soon after that as the queue has room, which is told.
     pub(crate) fn poll_heartbeat(&mut self) {
-        let (true, Some(node_id)) = (self.core.producer.timer.is_due(self.now), self.core.node_id) else {
+        let (true, Some(node_id)) =
+            (self.node.core.producer.timer.is_due(self.node.now), self.node.core.node_id)
+        else {
             return;
         };
-        if self.core.queue.room() == 0 {
-            self.core.queue.note_loss();
+        if self.node.core.queue.room() == 0 {
+            self.node.core.queue.note_loss();
             return;
         }
-        self.core.queue.send(error_control(node_id), &[self.core.state.code()]);
-        let producer = &mut self.core.producer;
-        producer.timer = producer.timer.again(self.now, producer.period);
+        self.node.core.queue.send(error_control(node_id), &[self.node.core.state.code()]);
+        let producer = &mut self.node.core.producer;
+        producer.timer = producer.timer.again(self.node.now, producer.period);
     }
 
     /// Takes the monitored nodes from 1016h.
     pub(crate) fn configure_consumers(&mut self) {
-        self.consumers.fill(HeartbeatConsumer::NEW);
-        for place in 1..=self.consumers.len() {
+        self.node.consumers.fill(HeartbeatConsumer::NEW);
+        for place in 1..=self.node.consumers.len() {
             self.consumer_changed(SubIndex(place as u8));
         }
     }
@@ -105,22 +108,22 @@ impl Context<'_> {
         }
         let Some(node_id) = HeartbeatConsumer::of(value).node_id else { return Ok(()) };
         let others =
-            self.consumers.iter().enumerate().filter(|(place, _)| place + 1 != usize::from(sub_index.0));
+            self.node.consumers.iter().enumerate().filter(|(place, _)| place + 1 != usize::from(sub_index.0));
         let is_doubled = others.map(|(_, other)| other.node_id).any(|other| other == Some(node_id));
         if is_doubled { Err(AbortCode::PARAMETER_INCOMPATIBLE) } else { Ok(()) }
     }
 
     /// What follows from an entry of 1016h: its monitoring begins anew, and an error of the old one is none any more.
     pub(crate) fn consumer_changed(&mut self, sub_index: SubIndex) {
-        let value: u32 = self.objects.value(Index::CONSUMER_HEARTBEAT, sub_index.0).unwrap_or_default();
+        let value: u32 = self.node.objects.value(Index::CONSUMER_HEARTBEAT, sub_index.0).unwrap_or_default();
         let new = match self.check_consumer(sub_index, value) {
             Ok(()) => HeartbeatConsumer::of(value),
             Err(_) => HeartbeatConsumer::NEW,
         };
         let place = usize::from(sub_index.0).checked_sub(1);
-        let Some(consumer) = place.and_then(|place| self.consumers.get_mut(place)) else { return };
+        let Some(consumer) = place.and_then(|place| self.node.consumers.get_mut(place)) else { return };
         let was_missing = core::mem::replace(consumer, new).is_missing;
-        self.found(Error::HEARTBEAT, was_missing, false, [0; 5]);
+        self.found(EmcyError::HEARTBEAT, was_missing, false, [0; 5]);
     }
 
     /// A frame with the identifier of a heartbeat.
@@ -130,31 +133,33 @@ impl Context<'_> {
     pub(crate) fn heartbeat_received(&mut self, can_id: CanId, frame: &Frame) {
         let &[code] = frame.data() else { return };
         let Some(state) = NmtState::from_code(code & 0x7F) else { return };
-        let now = self.now;
+        let now = self.node.now;
         let is_of = |consumer: &&mut HeartbeatConsumer| consumer.node_id.map(error_control) == Some(can_id);
-        let Some(consumer) = self.consumers.iter_mut().find(is_of) else { return };
+        let Some(consumer) = self.node.consumers.iter_mut().find(is_of) else { return };
         let Some(node_id) = consumer.node_id else { return };
         if state != NmtState::Initialising || consumer.timer.is_running() {
             consumer.timer = Timer::after(now, consumer.time);
         }
         let is_new = consumer.state.replace(state) != Some(state);
         let was_missing = core::mem::take(&mut consumer.is_missing);
-        self.found(Error::HEARTBEAT, was_missing, false, [0; 5]);
+        self.found(EmcyError::HEARTBEAT, was_missing, false, [0; 5]);
         if is_new {
-            self.app.remote_state(&mut self.objects, node_id, Some(state));
+            self.app.remote_state(&mut self.node, node_id, Some(state));
         }
     }
 
     pub(crate) fn poll_consumers(&mut self) {
-        for place in 0..self.consumers.len() {
-            let Some(consumer) = self.consumers.get_mut(place) else { continue };
-            let (true, Some(node_id)) = (consumer.timer.is_due(self.now), consumer.node_id) else { continue };
+        for place in 0..self.node.consumers.len() {
+            let Some(consumer) = self.node.consumers.get_mut(place) else { continue };
+            let (true, Some(node_id)) = (consumer.timer.is_due(self.node.now), consumer.node_id) else {
+                continue;
+            };
             consumer.timer = Timer::OFF;
             consumer.state = None;
             let was_missing = core::mem::replace(&mut consumer.is_missing, true);
-            self.found(Error::HEARTBEAT, was_missing, true, [node_id.get(), 0, 0, 0, 0]);
-            self.app.remote_state(&mut self.objects, node_id, None);
-            self.react_to_communication_error();
+            self.found(EmcyError::HEARTBEAT, was_missing, true, [node_id.get(), 0, 0, 0, 0]);
+            self.app.remote_state(&mut self.node, node_id, None);
+            self.react_to_communication_error(EmcyError::HEARTBEAT);
         }
     }
 }

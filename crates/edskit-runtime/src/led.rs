@@ -28,6 +28,16 @@ pub enum Pattern {
     DoubleFlash,
     /// Three flashes: the SYNC message is missing.
     TripleFlash,
+    /// A pattern of the manual: lit for `lit` of every `period` milliseconds, and `offset` milliseconds later than the
+    /// patterns of CiA 303-3 begin. So two indicators can be lit in turn.
+    Cycle {
+        /// The length of the whole, in ms; 0 stands for 1.
+        period: u16,
+        /// How long it is lit, in ms.
+        lit: u16,
+        /// How much later it begins, in ms.
+        offset: u16,
+    },
 }
 
 impl Pattern {
@@ -49,6 +59,12 @@ impl Pattern {
             Self::SingleFlash => flashes(at, 1),
             Self::DoubleFlash => flashes(at, 2),
             Self::TripleFlash => flashes(at, 3),
+            Self::Cycle { period, lit, offset } => {
+                let period = u64::from(period.max(1));
+                // The offset goes forward by what is left of a period, so that no time is negative.
+                let place = (at.0 / 1000 + period - u64::from(offset) % period) % period;
+                place < u64::from(lit)
+            }
         }
     }
 }
@@ -78,5 +94,10 @@ mod tests {
         assert_eq!(picture(Pattern::SingleFlash, 200_000, 8), "#.....#.");
         assert_eq!(picture(Pattern::DoubleFlash, 200_000, 9), "#.#.....#");
         assert_eq!(picture(Pattern::TripleFlash, 200_000, 11), "#.#.#.....#");
+        let cycle = |offset| picture(Pattern::Cycle { period: 500, lit: 200, offset }, 100_000, 12);
+        assert_eq!(cycle(0), "##...##...##");
+        assert_eq!(cycle(300), "...##...##..");
+        assert_eq!(cycle(1300), cycle(300));
+        assert_eq!(picture(Pattern::Cycle { period: 0, lit: 0, offset: 7 }, 1000, 3), "...");
     }
 }

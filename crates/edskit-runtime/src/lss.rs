@@ -1,8 +1,9 @@
 //! LSS slave: layer setting services (CiA 305 v2.2).
 
+use crate::Application;
 use crate::context::Context;
 use crate::storage::{Reader, Record};
-use crate::{Error, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
+use crate::{EmcyError, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
 use edskit_types::{Bitrate, CanId, Index, NodeId};
 
 /// The identifier of answers, 7E4h.
@@ -93,6 +94,38 @@ impl Commissioning {
     }
 }
 
+/// What an LSS master asks a node for that the device may do, or refuse, itself (CiA 305 v2.2).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LssRequest {
+    /// To enter the configuration state: switch mode global or selective. A refusal is not told to the master.
+    Configuration,
+    /// To have this node-ID from the next reset on; `None` for none (255).
+    NodeId(Option<NodeId>),
+    /// To have a bit rate: its index in a table of bit rates, 0 for that of CiA 305, others for those of the manufacturer.
+    BitRate {
+        /// The table.
+        table: u8,
+        /// The index.
+        index: u8,
+    },
+    /// To use the configured bit rate after so many milliseconds, and to be silent as long again. There is no answer.
+    ActivateBitRate(u16),
+    /// To store what is configured.
+    Store(Commissioning),
+}
+
+/// Who does what an LSS master asks for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LssAnswer {
+    /// The node, as CiA 305 says.
+    ByNode,
+    /// The device has done it; the master is told success.
+    Done,
+    /// Nobody: the master is told this error code, 1 for a value that is out of range or not supported, 2 for a failure of
+    /// the memory, 255 for an error of the manufacturer.
+    Refused(u8),
+}
+
 impl Lss {
     pub(crate) const fn new() -> Self {
         Self { is_in_configuration: false, selected: 0, identified: 0, scanned: 0, bit_rate: None }
@@ -108,7 +141,7 @@ impl Lss {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// A frame with the identifier 7E5h.
     pub(crate) fn lss_request(&mut self, frame: &Frame) {
         let Some(request) = frame.eight() else { return };
@@ -122,11 +155,11 @@ impl Context<'_> {
             command::IDENTIFY_FIRST..=command::IDENTIFY_LAST => {
                 self.identify(code - command::IDENTIFY_FIRST, number);
             }
-            command::IDENTIFY_NON_CONFIGURED if self.core.pending_node_id.is_none() => {
+            command::IDENTIFY_NON_CONFIGURED if self.node.core.pending_node_id.is_none() => {
                 self.answer([command::NON_CONFIGURED_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
             }
             command::FAST_SCAN => self.fast_scan(number, b5, b6, b7),
-            _ if self.core.lss.is_in_configuration => self.configure_by_lss(code, b1, b2),
+            _ if self.node.core.lss.is_in_configuration => self.configure_by_lss(code, b1, b2),
             _ => {}
         }
     }
@@ -135,28 +168,55 @@ impl Context<'_> {
     fn configure_by_lss(&mut self, code: u8, b1: u8, b2: u8) {
         match code {
             command::CONFIGURE_NODE_ID => {
-                let is_right = b1 == UNCONFIGURED || NodeId::new(b1).is_ok();
-                if is_right {
-                    self.core.pending_node_id = NodeId::new(b1).ok();
+                let node_id = NodeId::new(b1).ok();
+                if node_id.is_none() && b1 != UNCONFIGURED {
+                    return self.answer([code, 1, 0, 0, 0, 0, 0, 0]);
                 }
-                self.answer([code, u8::from(!is_right), 0, 0, 0, 0, 0, 0]);
+                let error = match self.app.lss(&mut self.node, LssRequest::NodeId(node_id)) {
+                    LssAnswer::Refused(error) => error,
+                    LssAnswer::Done => 0,
+                    LssAnswer::ByNode => {
+                        self.node.core.pending_node_id = node_id;
+                        0
+                    }
+                };
+                self.answer([code, error, 0, 0, 0, 0, 0, 0]);
             }
             command::CONFIGURE_BIT_TIMING => {
-                let bit_rate = Bitrate::from_lss_index(b2);
-                let bit_rates = self.core.settings.bit_rates;
-                let supported = bit_rate.filter(|bit_rate| b1 == 0 && bit_rates.has(*bit_rate));
-                if supported.is_some() {
-                    self.core.lss.bit_rate = supported;
-                }
-                self.answer([code, u8::from(supported.is_none()), 0, 0, 0, 0, 0, 0]);
+                let error = match self.app.lss(&mut self.node, LssRequest::BitRate { table: b1, index: b2 }) {
+                    LssAnswer::Refused(error) => error,
+                    LssAnswer::Done => 0,
+                    LssAnswer::ByNode => {
+                        let bit_rates = self.node.core.settings.bit_rates;
+                        let bit_rate = Bitrate::from_lss_index(b2);
+                        let supported = bit_rate.filter(|bit_rate| b1 == 0 && bit_rates.has(*bit_rate));
+                        if supported.is_some() {
+                            self.node.core.lss.bit_rate = supported;
+                        }
+                        u8::from(supported.is_none())
+                    }
+                };
+                self.answer([code, error, 0, 0, 0, 0, 0, 0]);
             }
             command::ACTIVATE_BIT_TIMING => {
-                if let Some(bit_rate) = self.core.lss.bit_rate {
-                    self.app.activate_bit_rate(bit_rate, u16::from_le_bytes([b1, b2]));
+                let delay = u16::from_le_bytes([b1, b2]);
+                let answer = self.app.lss(&mut self.node, LssRequest::ActivateBitRate(delay));
+                if let (LssAnswer::ByNode, Some(bit_rate)) = (answer, self.node.core.lss.bit_rate) {
+                    self.app.activate_bit_rate(bit_rate, delay);
                 }
             }
             command::STORE => {
-                let error = if self.store_lss().is_ok() { 0 } else { 2 };
+                let core = &self.node.core;
+                let present = Commissioning { node_id: core.pending_node_id, bit_rate: core.lss.bit_rate };
+                let error = match self.app.lss(&mut self.node, LssRequest::Store(present)) {
+                    LssAnswer::Refused(error) => error,
+                    LssAnswer::Done => 0,
+                    LssAnswer::ByNode if self.store_lss().is_ok() => 0,
+                    LssAnswer::ByNode => {
+                        self.app.storage_failed(&mut self.node, Record::Lss);
+                        2
+                    }
+                };
                 self.answer([code, error, 0, 0, 0, 0, 0, 0]);
             }
             command::INQUIRE_FIRST..=command::INQUIRE_LAST => {
@@ -164,7 +224,7 @@ impl Context<'_> {
                 self.answer([code, a, b, c, d, 0, 0, 0]);
             }
             command::INQUIRE_NODE_ID => {
-                let node_id = self.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
+                let node_id = self.node.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
                 self.answer([code, node_id, 0, 0, 0, 0, 0, 0]);
             }
             _ => {}
@@ -173,47 +233,56 @@ impl Context<'_> {
 
     fn answer(&mut self, data: [u8; MOST_DATA]) {
         if let Some(can_id) = CanId::standard(RESPONSE) {
-            self.core.queue.send(can_id, &data);
+            self.node.core.queue.send(can_id, &data);
         }
     }
 
     /// A number of the identity 1018h: 0 the vendor-ID, 1 the product code, 2 the revision number, 3 the serial number.
     #[inline(never)]
     fn identity(&self, number: u8) -> u32 {
-        self.objects.value(Index::IDENTITY, number.saturating_add(1)).unwrap_or_default()
+        self.node.objects.value(Index::IDENTITY, number.saturating_add(1)).unwrap_or_default()
     }
 
     fn switch_global(&mut self, mode: u8) {
         match mode {
             0 => self.leave_configuration(),
-            1 => self.core.lss.is_in_configuration = true,
+            1 => self.enter_configuration(),
             _ => {}
         }
     }
 
+    /// The configuration state is entered, unless the device refuses.
+    fn enter_configuration(&mut self) {
+        let answer = self.app.lss(&mut self.node, LssRequest::Configuration);
+        self.node.core.lss.is_in_configuration = !matches!(answer, LssAnswer::Refused(_));
+    }
+
     /// A node without a node-ID that has got one boots up now.
     fn leave_configuration(&mut self) {
-        self.core.lss.is_in_configuration = false;
-        if self.core.node_id.is_none() && self.core.pending_node_id.is_some() {
+        self.node.core.lss.is_in_configuration = false;
+        if self.node.core.node_id.is_none() && self.node.core.pending_node_id.is_some() {
             self.initialise(Reset::Communication);
         }
     }
 
     fn switch_selective(&mut self, place: u8, number: u32) {
-        if self.core.lss.is_in_configuration {
+        if self.node.core.lss.is_in_configuration {
             return;
         }
         if place == 0 {
-            self.core.lss.selected = 0;
+            self.node.core.lss.selected = 0;
         }
-        if self.core.lss.selected != place || self.identity(place) != number {
-            self.core.lss.selected = 0;
+        if self.node.core.lss.selected != place || self.identity(place) != number {
+            self.node.core.lss.selected = 0;
             return;
         }
-        self.core.lss.selected += 1;
+        self.node.core.lss.selected += 1;
         if place == 3 {
-            self.core.lss.selected = 0;
-            self.core.lss.is_in_configuration = true;
+            self.node.core.lss.selected = 0;
+            self.enter_configuration();
+            if !self.node.core.lss.is_in_configuration {
+                return;
+            }
             self.answer([command::SWITCH_SELECTIVE_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
         }
     }
@@ -221,7 +290,7 @@ impl Context<'_> {
     /// Vendor-ID, product code, lowest and highest revision number, lowest and highest serial number.
     fn identify(&mut self, place: u8, number: u32) {
         if place == 0 {
-            self.core.lss.identified = 0;
+            self.node.core.lss.identified = 0;
         }
         let is_match = match place {
             0 | 1 => self.identity(place) == number,
@@ -230,13 +299,13 @@ impl Context<'_> {
             4 => self.identity(3) >= number,
             _ => self.identity(3) <= number,
         };
-        if self.core.lss.identified != place || !is_match {
-            self.core.lss.identified = 0;
+        if self.node.core.lss.identified != place || !is_match {
+            self.node.core.lss.identified = 0;
             return;
         }
-        self.core.lss.identified += 1;
+        self.node.core.lss.identified += 1;
         if place == 5 {
-            self.core.lss.identified = 0;
+            self.node.core.lss.identified = 0;
             self.answer([command::IDENTIFY_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
         }
     }
@@ -244,15 +313,15 @@ impl Context<'_> {
     /// Fast scan: all nodes without node-ID whose number agrees with `number` down to bit `bit` answer; `next` is the
     /// number to be looked at from then on. Bit 128 begins the scan.
     fn fast_scan(&mut self, number: u32, bit: u8, place: u8, next: u8) {
-        if self.core.pending_node_id.is_some() || self.core.lss.is_in_configuration {
+        if self.node.core.pending_node_id.is_some() || self.node.core.lss.is_in_configuration {
             return;
         }
         let agrees = match bit {
             128 => {
-                self.core.lss.scanned = 0;
+                self.node.core.lss.scanned = 0;
                 true
             }
-            0..=31 if place == self.core.lss.scanned && place <= 3 => {
+            0..=31 if place == self.node.core.lss.scanned && place <= 3 => {
                 (self.identity(place) ^ number) >> bit == 0
             }
             _ => false,
@@ -261,9 +330,9 @@ impl Context<'_> {
             return;
         }
         if bit == 0 {
-            self.core.lss.scanned = next;
+            self.node.core.lss.scanned = next;
             if place == 3 && next == 0 {
-                self.core.lss.is_in_configuration = true;
+                self.enter_configuration();
             }
         }
         self.answer([command::IDENTIFY_ANSWER, 0, 0, 0, 0, 0, 0, 0]);
@@ -271,14 +340,14 @@ impl Context<'_> {
 
     /// Stores node-ID and bit rate, the one that was configured last or is stored already.
     fn store_lss(&mut self) -> Result<(), StorageError> {
-        let node_id = self.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
-        let rate = self.core.lss.bit_rate.map_or(0, Bitrate::kbit_per_s).to_le_bytes();
+        let node_id = self.node.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
+        let rate = self.node.core.lss.bit_rate.map_or(0, Bitrate::kbit_per_s).to_le_bytes();
         let [low, high] = rate;
-        self.storage.begin(Record::Lss)?;
+        self.node.storage.begin(Record::Lss)?;
         // The complement tells a torn record from a right one.
-        self.storage.write(Record::Lss, &[node_id, !node_id, low, high, !low, !high])?;
-        self.storage.commit(Record::Lss)?;
-        self.clear(Error::LOST_PARAMETERS, SOURCE);
+        self.node.storage.write(Record::Lss, &[node_id, !node_id, low, high, !low, !high])?;
+        self.node.storage.commit(Record::Lss)?;
+        self.clear(EmcyError::LOST_PARAMETERS, SOURCE);
         Ok(())
     }
 }

@@ -1,17 +1,19 @@
 //! The node: a dictionary with all services of CiA 301 and CiA 305.
 
 use crate::context::{Context, Core};
-use crate::dictionary::{Dictionary, Position};
+use crate::dictionary::Dictionary;
 use crate::emcy::Emcy;
 use crate::guarding::Guarding;
 use crate::heartbeat::Producer;
 use crate::lss::Lss;
 use crate::queue::Queue;
+use crate::services::{Requests, Services};
 use crate::sync::Sync;
 use crate::{
-    Application, Entry, Error, Frame, Instant, Leds, NoApplication, NotSent, Objects, Pattern, Reset, Storage,
+    Application, BusState, Entry, Frame, Instant, Leds, Microseconds, NoApplication, NotSent, Objects,
+    Pattern, PdoPolicy, Reset, Storage,
 };
-use edskit_types::{AbortCode, BitRates, IdentifierRules, NmtState, NodeId};
+use edskit_types::{AbortCode, BitRates, CanId, IdentifierRules, NmtState, NodeId};
 
 /// What a node is told besides its dictionary. A generated dictionary has the constant `SETTINGS`, which says what
 /// `[DeviceInfo]` of its EDS does.
@@ -25,8 +27,17 @@ pub struct Settings {
     pub bit_rates: BitRates,
     /// Whether the node is an LSS slave (CiA 305).
     pub has_lss: bool,
+    /// Whether its SDO servers know transfers in segments. Of a device that does not, a client gets
+    /// [`AbortCode::UNKNOWN_COMMAND`] for a value of more than four bytes.
+    pub has_segmented_transfer: bool,
     /// Whether its SDO servers know block transfer, which is optional in CiA 301.
     pub has_block_transfer: bool,
+    /// The identifier of the SYNC message where the dictionary has no 1005h; `None` for none.
+    pub sync: Option<CanId>,
+    /// Whether EMCY messages are sent with 80h and the node-ID where the dictionary has no 1014h.
+    pub sends_emergencies: bool,
+    /// How the parameters of PDOs are treated.
+    pub pdos: PdoPolicy,
     /// Mapped values have a multiple of so many bits (`Granularity` of the EDS); 0 and 1 allow any length.
     pub granularity: u8,
     /// Which identifiers the services may have (CiA 301, 7.3.5). A device whose manual allows others has rules of its own;
@@ -42,7 +53,11 @@ impl Settings {
         starts_by_itself: false,
         bit_rates: BitRates::ALL,
         has_lss: true,
+        has_segmented_transfer: true,
         has_block_transfer: true,
+        sync: None,
+        sends_emergencies: false,
+        pdos: PdoPolicy::CIA_301,
         granularity: 1,
         identifiers: &IdentifierRules::CIA_301,
     };
@@ -69,7 +84,7 @@ pub struct Node<D, S> {
 
 impl<D: Dictionary, S: Storage> Node<D, S> {
     /// A node that has not been powered on yet: the first [`poll`](Node::poll) does that.
-    pub fn new(dictionary: D, settings: Settings, storage: S) -> Self {
+    pub const fn new(dictionary: D, settings: Settings, storage: S) -> Self {
         let core = Core {
             settings,
             node_id: None,
@@ -80,7 +95,10 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             is_held: false,
             queue: Queue::new(),
             has_overrun: false,
+            bus_state: BusState::Active,
             next_tpdo: 0,
+            requests: Requests::NONE,
+            answer_delay: Microseconds(0),
             refused_values: 0,
             emcy: Emcy::new(),
             producer: Producer::OFF,
@@ -91,32 +109,26 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
         Self { dictionary, storage, core }
     }
 
-    fn context<'a>(&'a mut self, now: Instant, app: &'a mut dyn Application) -> Context<'a> {
-        let parts = self.dictionary.parts();
-        Context {
-            now,
-            objects: parts.objects,
-            rpdos: parts.rpdos,
-            tpdos: parts.tpdos,
-            mapped: parts.mapped,
-            servers: parts.servers,
-            consumers: parts.consumers,
-            buffers: parts.buffers,
-            core: &mut self.core,
-            app,
-            storage: &mut self.storage,
-        }
+    fn context<'a, A: Application + ?Sized>(&'a mut self, now: Instant, app: &'a mut A) -> Context<'a, A> {
+        Context { node: self.services(now), app }
     }
 
     /// Takes a frame from the bus. Frames before the first [`poll`](Node::poll) are lost, as before power-on.
-    pub fn receive(&mut self, now: Instant, frame: &impl embedded_can::Frame, app: &mut dyn Application) {
+    pub fn receive(
+        &mut self,
+        now: Instant,
+        frame: &impl embedded_can::Frame,
+        app: &mut (impl Application + ?Sized),
+    ) {
         if self.core.has_started && !self.core.is_held {
-            self.context(now, app).receive(&Frame::of(frame));
+            let mut context = self.context(now, app);
+            context.receive(&Frame::of(frame));
+            context.do_requests();
         }
     }
 
     /// Does what is due: boots up, sends heartbeats and PDOs, ends transfers whose client is silent, and so on.
-    pub fn poll(&mut self, now: Instant, app: &mut dyn Application) {
+    pub fn poll(&mut self, now: Instant, app: &mut (impl Application + ?Sized)) {
         self.context(now, app).poll();
     }
 
@@ -147,67 +159,59 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     }
 
     /// Resets the node, as the NMT master could.
-    pub fn reset(&mut self, now: Instant, reset: Reset, app: &mut dyn Application) {
+    pub fn reset(&mut self, now: Instant, reset: Reset, app: &mut (impl Application + ?Sized)) {
         self.context(now, app).initialise(reset);
     }
 
     /// Leads the node to another state, as the NMT master could. Nothing happens while it is initialising, and
     /// [`NmtState::Initialising`] cannot be entered in this way: see [`reset`](Node::reset).
-    pub fn enter(&mut self, now: Instant, state: NmtState, app: &mut dyn Application) {
-        if state != NmtState::Initialising {
-            self.context(now, app).enter(state);
-        }
+    pub fn enter(&mut self, now: Instant, state: NmtState, app: &mut (impl Application + ?Sized)) {
+        self.context(now, app).enter(state);
     }
 
-    /// An error of the device has occurred: it is told by an EMCY message, unless it is present already. `source` tells
-    /// errors of one kind apart.
-    ///
-    /// There is room for 32 errors of the device at once, whatever the services of the node find besides. A further one is
-    /// told each time that it is raised, and is not in the error register afterwards.
-    pub fn raise(
-        &mut self,
-        now: Instant,
-        error: Error,
-        source: u16,
-        info: [u8; 5],
-        app: &mut dyn Application,
-    ) {
-        self.context(now, app).raise(error, source, info);
-    }
-
-    /// An error of the device has gone.
-    pub fn clear(&mut self, now: Instant, error: Error, source: u16, app: &mut dyn Application) {
-        self.context(now, app).clear(error, source);
-    }
-
-    /// An event of the TPDO with this number from 1 has happened: it is sent as its transmission type says. Types that no
-    /// event sends have none.
-    pub fn trigger_tpdo(&mut self, now: Instant, number: u16) {
-        self.context(now, &mut NoApplication).tpdo_event(number);
-    }
-
-    /// The device has changed a value: an event of each TPDO that carries it. What a client or an RPDO writes is an event
-    /// where [`Application::write_is_event`] says so.
-    pub fn value_changed(&mut self, now: Instant, position: Position) {
-        self.context(now, &mut NoApplication).value_changed(position);
-    }
-
-    /// The device has changed a parameter of 1000h to 1FFFh itself: the service follows it as if a client had written it.
-    /// A value that a client could not write has no effect. Of a mapping, sub-index 00h stands for the whole.
-    pub fn parameter_changed(&mut self, now: Instant, position: Position, app: &mut dyn Application) {
+    /// The CAN controller is in another state. Error passive is told by EMCY 8120h while it lasts, and a recovery from bus-off
+    /// by 8140h; bus-off is a communication error to which the node reacts as 1029h says
+    /// ([`Application::reaction`]). The red indicator shows each.
+    pub fn bus_state(&mut self, now: Instant, state: BusState, app: &mut (impl Application + ?Sized)) {
         let mut context = self.context(now, app);
-        if let Some(entry) = context.objects.table.entry(position)
-            && context.core.has_started
-            && !context.core.is_held
-        {
-            context.parameter_changed(entry);
+        context.bus_found(state);
+        context.do_requests();
+    }
+
+    /// The dictionary and the services, for what the device does between the calls of the node: raise an error, trigger a
+    /// TPDO, and so on.
+    ///
+    /// ```
+    /// use edskit_runtime::{Dictionary, EmcyError, Instant, Node, Storage};
+    ///
+    /// fn too_hot<D: Dictionary, S: Storage>(node: &mut Node<D, S>, now: Instant) {
+    ///     node.services(now).raise(EmcyError { code: 0x4210, register: 1 << 3 }, 0, [0; 5]);
+    /// }
+    /// ```
+    pub fn services(&mut self, now: Instant) -> Services<'_> {
+        let parts = self.dictionary.parts();
+        Services {
+            now,
+            objects: parts.objects,
+            rpdos: parts.rpdos,
+            tpdos: parts.tpdos,
+            mapped: parts.mapped,
+            servers: parts.servers,
+            consumers: parts.consumers,
+            buffers: parts.buffers,
+            core: &mut self.core,
+            storage: &mut self.storage,
         }
     }
 
     /// Calls `report` with every entry whose present value is one that a client could not write, and with the abort code
     /// that it would get. Wherever such a value comes from, it has no effect: the service that it belongs to does not
     /// exist, or works as if the object did not. Without a node-ID nothing is reported.
-    pub fn refused(&mut self, app: &mut dyn Application, report: &mut dyn FnMut(&Entry, AbortCode)) {
+    pub fn refused(
+        &mut self,
+        app: &mut (impl Application + ?Sized),
+        report: &mut dyn FnMut(&Entry, AbortCode),
+    ) {
         self.context(Instant::default(), app).refused(report);
     }
 
@@ -231,6 +235,10 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             NmtState::PreOperational => Pattern::Blinking,
             NmtState::Operational => Pattern::On,
         };
-        Leds { run, error: self.core.emcy.pattern() }
+        let error = match self.core.bus_state {
+            BusState::Off => Pattern::On,
+            state => self.core.emcy.pattern(state != BusState::Active),
+        };
+        Leds { run, error }
     }
 }

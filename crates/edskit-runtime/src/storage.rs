@@ -1,10 +1,12 @@
 //! Storing parameters over power-off: 1010h, 1011h, and what LSS configures.
 
+use crate::Application;
 use crate::access::is_communication;
 use crate::context::Context;
 use crate::crc::Crc;
 use crate::dictionary::{Entry, Flags, Position, StorageGroup, Table};
-use crate::emcy::Error;
+use crate::emcy::EmcyError;
+use crate::services::Services;
 use edskit_types::{AbortCode, Index, SubIndex};
 
 /// Memory that keeps its content without power. It holds one record for each group of values.
@@ -128,25 +130,61 @@ const RELATIVE: u16 = 1 << 15;
 /// How much is read at once.
 const CHUNK: usize = 16;
 
-impl Context<'_> {
-    /// What 1010h and 1011h take: their signature.
-    pub(crate) fn check_command(&self, index: Index, data: &[u8]) -> Result<(), AbortCode> {
-        let signature = if index == Index::STORE_PARAMETERS { SAVE } else { LOAD };
-        if data == signature { Ok(()) } else { Err(AbortCode::CANNOT_TRANSFER) }
+impl Services<'_> {
+    /// Keeps bytes over power-off in a record of the device ([`Record::Device`]): what a manual stores when it is written,
+    /// without 1010h. A checksum is kept with them.
+    ///
+    /// # Errors
+    /// [`StorageError`] if the memory does not take them.
+    pub fn keep(&mut self, record: u8, data: &[u8]) -> Result<(), StorageError> {
+        let record = Record::Device(record);
+        let length = u16::try_from(data.len()).map_err(|_| StorageError)?;
+        let mut writer = Writer { storage: self.storage, record, crc: Crc::new() };
+        writer.storage.begin(record)?;
+        writer.write(&length.to_le_bytes())?;
+        writer.write(data)?;
+        let crc = writer.crc.value().to_le_bytes();
+        writer.storage.write(record, &crc)?;
+        writer.storage.commit(record)
     }
 
-    /// 1010h is written: saves the groups that the sub-index stands for. Or 1011h is: forgets what is stored of them; the
-    /// values change with the next reset. Either way nothing of them is lost any more.
-    pub(crate) fn do_command(&mut self, index: Index, sub_index: SubIndex) -> Result<(), AbortCode> {
-        for group in groups(self.objects.table) {
-            if ![ALL_GROUPS, group.0].contains(&sub_index.0) {
-                continue;
-            }
-            let saves = index == Index::STORE_PARAMETERS;
-            let done = if saves { self.save_group(group) } else { self.storage.erase(Record::Values(group)) };
-            done.map_err(|StorageError| AbortCode::HARDWARE_ERROR)?;
-            self.clear(Error::LOST_PARAMETERS, group.0.into());
+    /// The bytes that were kept in a record of the device; `None` where there are none.
+    ///
+    /// # Errors
+    /// [`StorageError`] if the memory does not answer, the record is torn, or it holds more than `buffer`.
+    pub fn kept<'b>(&mut self, record: u8, buffer: &'b mut [u8]) -> Result<Option<&'b [u8]>, StorageError> {
+        let mut reader = Reader::new(self.storage, Record::Device(record));
+        let mut crc = Crc::new();
+        let mut two = [0; 2];
+        match reader.read(&mut two)? {
+            0 => return Ok(None),
+            2 => crc.update(&two),
+            _ => return Err(StorageError),
         }
+        let data = buffer.get_mut(..usize::from(u16::from_le_bytes(two))).ok_or(StorageError)?;
+        let is_whole = reader.read(data)? == data.len();
+        crc.update(data);
+        let is_right = is_whole && reader.read(&mut two)? == 2 && u16::from_le_bytes(two) == crc.value();
+        if is_right { Ok(Some(data)) } else { Err(StorageError) }
+    }
+
+    /// Saves a group of values, as 1010h does: for manuals that save on other occasions.
+    ///
+    /// # Errors
+    /// [`StorageError`] if the memory does not take them; what was stored before then stays.
+    pub fn save(&mut self, group: StorageGroup) -> Result<(), StorageError> {
+        self.save_group(group)?;
+        self.clear(EmcyError::LOST_PARAMETERS, group.0.into());
+        Ok(())
+    }
+
+    /// Forgets what is stored of a group of values, as 1011h does: they change with the next reset.
+    ///
+    /// # Errors
+    /// [`StorageError`] if the memory fails.
+    pub fn forget(&mut self, group: StorageGroup) -> Result<(), StorageError> {
+        self.storage.erase(Record::Values(group))?;
+        self.clear(EmcyError::LOST_PARAMETERS, group.0.into());
         Ok(())
     }
 
@@ -179,6 +217,34 @@ impl Context<'_> {
         writer.storage.write(record, &crc)?;
         writer.storage.commit(record)
     }
+}
+
+impl<A: Application + ?Sized> Context<'_, A> {
+    /// What 1010h and 1011h take: their signature.
+    pub(crate) fn check_command(&self, index: Index, data: &[u8]) -> Result<(), AbortCode> {
+        let signature = if index == Index::STORE_PARAMETERS { SAVE } else { LOAD };
+        if data == signature { Ok(()) } else { Err(AbortCode::CANNOT_TRANSFER) }
+    }
+
+    /// 1010h is written: saves the groups that the sub-index stands for. Or 1011h is: forgets what is stored of them; the
+    /// values change with the next reset. Either way nothing of them is lost any more.
+    pub(crate) fn do_command(&mut self, entry: &Entry) -> Result<(), AbortCode> {
+        if !self.app.storage_command(&mut self.node, entry)? {
+            return Ok(());
+        }
+        for group in groups(self.node.objects.table) {
+            if ![ALL_GROUPS, group.0].contains(&entry.sub_index.0) {
+                continue;
+            }
+            let saves = entry.index == Index::STORE_PARAMETERS;
+            let done = if saves { self.node.save(group) } else { self.node.forget(group) };
+            if done.is_err() {
+                self.app.storage_failed(&mut self.node, Record::Values(group));
+                return Err(AbortCode::HARDWARE_ERROR);
+            }
+        }
+        Ok(())
+    }
 
     /// Loads the stored values of the entries that `is_chosen` chooses over the defaults. What is torn or has no place in
     /// this dictionary is left.
@@ -193,7 +259,8 @@ impl Context<'_> {
                     Err(StorageError) => Err([0; 4]),
                 };
                 if let Err([a, b, c, d]) = loaded {
-                    self.raise(Error::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
+                    self.app.storage_failed(&mut self.node, Record::Values(group));
+                    self.raise(EmcyError::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
                 }
             }
         }
@@ -201,7 +268,7 @@ impl Context<'_> {
 
     /// The length of the values in a record; `None` where there is no record, or only one of another dictionary is wanted.
     fn check_record(&mut self, record: Record, wants_other: bool) -> Result<Option<u32>, StorageError> {
-        let mut reader = Reader::new(self.storage, record);
+        let mut reader = Reader::new(self.node.storage, record);
         let mut crc = Crc::new();
         let mut header = [0; HEADER];
         match reader.read(&mut header)? {
@@ -213,7 +280,7 @@ impl Context<'_> {
         if [m0, m1, m2, m3] != MAGIC {
             return Err(StorageError);
         }
-        if wants_other && u32::from_le_bytes([f0, f1, f2, f3]) == self.objects.table.fingerprint {
+        if wants_other && u32::from_le_bytes([f0, f1, f2, f3]) == self.node.objects.table.fingerprint {
             return Ok(None);
         }
         let length = u32::from_le_bytes([l0, l1, l2, l3]);
@@ -248,7 +315,7 @@ impl Context<'_> {
         let end = offset.saturating_add(length);
         let mut loaded = Ok(());
         while offset < end {
-            let mut reader = Reader { storage: self.storage, record: Record::Values(group), offset };
+            let mut reader = Reader { storage: self.node.storage, record: Record::Values(group), offset };
             let mut head = [0; HEAD];
             if reader.read(&mut head) != Ok(HEAD) {
                 return Err([0; 4]);
@@ -262,8 +329,8 @@ impl Context<'_> {
             if !is_chosen(index) {
                 continue;
             }
-            let found = self.objects.table.find(index, sub_index).ok();
-            let entry = found.and_then(|position| Some((position, self.objects.table.entry(position)?)));
+            let found = self.node.objects.table.find(index, sub_index).ok();
+            let entry = found.and_then(|position| Some((position, self.node.objects.table.entry(position)?)));
             let stored = entry.filter(|(_, entry)| is_stored(entry));
             let has_moved = stored.is_some_and(|(_, entry)| entry.flags.group() != Some(group));
             if has_moved != wants_moved {
@@ -274,7 +341,7 @@ impl Context<'_> {
                 None => false,
             };
             if !is_taken {
-                self.app.stored_value_dropped(&mut self.objects, index, sub_index);
+                self.app.stored_value_dropped(&mut self.node, index, sub_index);
             }
             if !is_taken && stored.is_some() && loaded.is_ok() {
                 loaded = Err([index_low, index_high, sub_index.0, 0]);
@@ -296,17 +363,17 @@ impl Context<'_> {
         if size != entry.size && (!entry.has_length() || size > entry.size) {
             return false;
         }
-        self.objects.set_length(position, size);
-        let mut reader = Reader { storage: self.storage, record: Record::Values(group), offset };
-        let mut is_right = reader.read(self.objects.bytes_of(entry)) == Ok(size.into());
+        self.node.objects.set_length(position, size);
+        let mut reader = Reader { storage: self.node.storage, record: Record::Values(group), offset };
+        let mut is_right = reader.read(self.node.objects.bytes_of(entry)) == Ok(size.into());
         if is_relative {
-            self.objects.add_node_id(position, self.core.node_id);
+            self.node.objects.add_node_id(position, self.node.core.node_id);
         }
         // What follows the node-ID is not known without one.
-        let is_known = self.core.node_id.is_some();
+        let is_known = self.node.core.node_id.is_some();
         is_right = is_right && (!is_known || self.check_present(position, entry).is_ok());
         if !is_right {
-            self.objects.restore_entry(position, entry, self.core.node_id);
+            self.node.objects.restore_entry(position, entry, self.node.core.node_id);
         }
         is_right
     }

@@ -1,8 +1,9 @@
 //! SYNC: consumer with counter, producer, and the synchronous window (CiA 301 v4.2, 7.2.5).
 
+use crate::Application;
 use crate::context::Context;
 use crate::time::Timer;
-use crate::{Error, Frame, Instant, Microseconds};
+use crate::{EmcyError, Frame, Instant, Microseconds};
 use edskit_types::{AbortCode, CanId, CobId, Index};
 
 const PERIOD: Index = Index(0x1006);
@@ -50,41 +51,47 @@ pub(crate) fn check_sync_overflow(value: u8) -> Result<(), AbortCode> {
     if matches!(value, 0 | 2..=240) { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn configure_sync(&mut self) {
-        self.core.sync = Sync::new();
+        self.node.core.sync = Sync::new();
         self.sync_changed();
     }
 
     /// What 1005h says, where that can be used.
     fn sync_cob_id(&self) -> Option<CobId> {
-        self.objects.value(Index::SYNC_COB_ID, 0).map(CobId).filter(|cob_id| self.check_sync(*cob_id).is_ok())
+        self.node
+            .objects
+            .value(Index::SYNC_COB_ID, 0)
+            .map(CobId)
+            .filter(|cob_id| self.check_sync(*cob_id).is_ok())
     }
 
     fn sync_period(&self) -> Microseconds {
-        Microseconds(self.objects.value::<u32>(PERIOD, 0).unwrap_or_default().into())
+        Microseconds(self.node.objects.value::<u32>(PERIOD, 0).unwrap_or_default().into())
     }
 
     /// The overflow value of the counter, where 1019h has one that can be used; 0 for no counter.
     fn sync_overflow(&self) -> u8 {
-        let overflow: Option<u8> = self.objects.value(OVERFLOW, 0);
+        let overflow: Option<u8> = self.node.objects.value(OVERFLOW, 0);
         overflow.filter(|value| check_sync_overflow(*value).is_ok()).unwrap_or(0)
     }
 
     /// Whether a window is set (1007h, as it is now) and has passed since the last message.
     pub(crate) fn window_has_passed(&self) -> bool {
-        let Some(began) = self.core.sync.began.filter(|began| *began < self.now) else { return false };
-        let window: u32 = self.objects.value(WINDOW, 0).unwrap_or_default();
-        Timer::after(began, Microseconds(window.into())).is_due(self.now)
+        let Some(began) = self.node.core.sync.began.filter(|began| *began < self.node.now) else {
+            return false;
+        };
+        let window: u32 = self.node.objects.value(WINDOW, 0).unwrap_or_default();
+        Timer::after(began, Microseconds(window.into())).is_due(self.node.now)
     }
 
     /// What 1005h can be set to. A device without 1006h cannot produce the message.
     pub(crate) fn check_sync(&self, cob_id: CobId) -> Result<(), AbortCode> {
-        if cob_id.bit30() && self.objects.value::<u32>(PERIOD, 0).is_none() {
+        if cob_id.bit30() && self.node.objects.value::<u32>(PERIOD, 0).is_none() {
             return Err(AbortCode::INVALID_VALUE);
         }
         // Bit 31 has no meaning here, so an identifier is checked as that of a valid message.
-        self.check_cob_id(CobId(cob_id.0 & !CobId::BIT_31))
+        self.node.check_cob_id(CobId(cob_id.0 & !CobId::BIT_31))
     }
 
     /// 1005h is about to be written. While the device produces the message, only bit 30 may change.
@@ -105,54 +112,56 @@ impl Context<'_> {
     /// What follows from 1005h, 1006h and 1019h: the producer begins anew, its first message after one period, and the
     /// error of a message that was expected otherwise is none any more.
     pub(crate) fn sync_changed(&mut self) {
+        let has_object = self.node.objects.value::<u32>(Index::SYNC_COB_ID, 0).is_some();
         let cob_id = self.sync_cob_id();
-        let can_id = cob_id.map(CobId::can_id);
+        let fixed = self.node.core.settings.sync.filter(|_| !has_object);
+        let can_id = cob_id.map(CobId::can_id).or(fixed);
         let is_producer = cob_id.is_some_and(CobId::bit30);
         let period = if is_producer { self.sync_period() } else { Microseconds(0) };
-        let sync = &mut self.core.sync;
+        let sync = &mut self.node.core.sync;
         if sync.can_id != can_id {
             sync.began = None;
         }
         sync.can_id = can_id;
-        sync.producer = Timer::after(self.now, period);
+        sync.producer = Timer::after(self.node.now, period);
         sync.next_counter = 1;
         self.sync_length_found(false, 0);
     }
 
     /// Whether the last message had a wrong length.
     pub(crate) fn sync_length_found(&mut self, is_wrong: bool, length: u8) {
-        let was_wrong = core::mem::replace(&mut self.core.sync.has_wrong_length, is_wrong);
-        self.found(Error::SYNC_LENGTH, was_wrong, is_wrong, [length, 0, 0, 0, 0]);
+        let was_wrong = core::mem::replace(&mut self.node.core.sync.has_wrong_length, is_wrong);
+        self.found(EmcyError::SYNC_LENGTH, was_wrong, is_wrong, [length, 0, 0, 0, 0]);
     }
 
     /// Sends the message when it is due, or as soon after that as the queue has room, which is told.
     pub(crate) fn poll_sync(&mut self) {
-        if !self.core.sync.producer.is_due(self.now) {
+        if !self.node.core.sync.producer.is_due(self.node.now) {
             return;
         }
-        if self.is_communicating() && self.core.queue.room() == 0 {
-            self.core.queue.note_loss();
+        if self.node.is_communicating() && self.node.core.queue.room() == 0 {
+            self.node.core.queue.note_loss();
             return;
         }
         let period = self.sync_period();
-        self.core.sync.producer = self.core.sync.producer.again(self.now, period);
-        let Some(can_id) = self.core.sync.can_id else { return };
-        if !self.is_communicating() {
+        self.node.core.sync.producer = self.node.core.sync.producer.again(self.node.now, period);
+        let Some(can_id) = self.node.core.sync.can_id else { return };
+        if !self.node.is_communicating() {
             return;
         }
         let overflow = self.sync_overflow();
-        let counter = (overflow > 0).then_some(self.core.sync.next_counter);
+        let counter = (overflow > 0).then_some(self.node.core.sync.next_counter);
         if let Some(counter) = counter {
-            self.core.sync.next_counter = if counter >= overflow { 1 } else { counter + 1 };
+            self.node.core.sync.next_counter = if counter >= overflow { 1 } else { counter + 1 };
         }
-        self.core.queue.send(can_id, counter.as_slice());
+        self.node.core.queue.send(can_id, counter.as_slice());
         self.synchronise(counter);
     }
 
     /// A frame with the identifier of 1005h. A device whose period is 0 makes none itself, so it takes those of others
     /// although it may be set to produce them (bit 30).
     pub(crate) fn sync_received(&mut self, frame: &Frame) {
-        if !self.is_communicating() || self.core.sync.producer.is_running() {
+        if !self.node.is_communicating() || self.node.core.sync.producer.is_running() {
             return;
         }
         let counter = match (frame.data(), self.sync_overflow() > 0) {
@@ -169,9 +178,9 @@ impl Context<'_> {
 
     /// A period begins: what was received in the last one counts, and synchronous PDOs are sent.
     fn synchronise(&mut self, counter: Option<u8>) {
-        self.core.sync.began = Some(self.now);
+        self.node.core.sync.began = Some(self.node.now);
         self.apply_synchronous_rpdos();
-        self.app.sync_received(&mut self.objects, counter);
+        self.app.sync_received(&mut self.node, counter);
         self.send_synchronous_tpdos(counter);
     }
 }

@@ -80,9 +80,9 @@ impl Timer {
         self != Self::OFF
     }
 
-    #[inline(never)]
+    /// Whether it is due at a time; that of a timer that is off, the end of time, never comes.
     pub(crate) fn is_due(self, now: Instant) -> bool {
-        self.is_running() && self.0 <= now
+        self.0 <= now
     }
 
     /// When it is due; never where it is off.

@@ -1,6 +1,6 @@
 //! A device without a process behind it: it keeps what it is told.
 
-use edskit_runtime::{Application, Emergency, Entry, Objects};
+use edskit_runtime::{Application, Emergency, Entry, Services};
 use edskit_types::{AbortCode, Bitrate, Index, NmtState, SubIndex};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,23 +50,23 @@ impl MemoryDevice {
 }
 
 impl Application for MemoryDevice {
-    fn state_changed(&mut self, _: &mut Objects<'_>, _: NmtState, to: NmtState) {
+    fn state_changed(&mut self, _: &mut Services<'_>, _: NmtState, to: NmtState) {
         self.events.push(DeviceEvent::State(to));
         self.refused.clear();
     }
 
-    fn emergency(&mut self, _: &mut Objects<'_>, emergency: &Emergency) {
+    fn emergency(&mut self, _: &mut Services<'_>, emergency: &mut Emergency) {
         self.events.push(DeviceEvent::Emergency(*emergency));
     }
 
-    fn domain_length(&mut self, _: &mut Objects<'_>, entry: &Entry) -> Result<Option<u32>, AbortCode> {
+    fn domain_length(&mut self, _: &mut Services<'_>, entry: &Entry) -> Result<Option<u32>, AbortCode> {
         let length = self.domains.get(&(entry.index, entry.sub_index)).map_or(0, Vec::len);
         Ok(Some(length as u32))
     }
 
     fn read_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         entry: &Entry,
         offset: u32,
         buffer: &mut [u8],
@@ -80,7 +80,7 @@ impl Application for MemoryDevice {
 
     fn write_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         entry: &Entry,
         offset: u32,
         data: &[u8],
@@ -106,18 +106,18 @@ impl Application for MemoryDevice {
         Ok(())
     }
 
-    fn domain_broken_off(&mut self, _: &mut Objects<'_>, entry: &Entry, offset: u32) {
+    fn domain_broken_off(&mut self, _: &mut Services<'_>, entry: &Entry, offset: u32) {
         let place = (entry.index, entry.sub_index);
         if self.coming.get(&place).is_some_and(|coming| coming.len() == offset as usize) {
             self.coming.remove(&place);
         }
     }
 
-    fn write_is_event(&mut self, _: &Objects<'_>, _: &Entry) -> bool {
+    fn write_is_event(&mut self, _: &Services<'_>, _: &Entry) -> bool {
         true
     }
 
-    fn rpdo_value_refused(&mut self, _: &mut Objects<'_>, rpdo: u16, entry: &Entry, code: AbortCode) {
+    fn rpdo_value_refused(&mut self, _: &mut Services<'_>, rpdo: u16, entry: &Entry, code: AbortCode) {
         let Entry { index, sub_index, .. } = *entry;
         if self.refused.insert((rpdo, index, sub_index)) {
             self.events.push(DeviceEvent::ValueRefused { rpdo, index, sub_index, code });
@@ -132,8 +132,25 @@ impl Application for MemoryDevice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use edskit_runtime::{Flags, Table};
+    use edskit_runtime::{Dictionary, Flags, Instant, Memory, NoStorage, Node, Parts, Settings, Table};
     use edskit_types::DataType;
+
+    /// A dictionary without any entry.
+    struct Empty(Memory<0, 0, 0, 0, 0, 0, 0>);
+
+    impl Dictionary for Empty {
+        fn parts(&mut self) -> Parts<'_> {
+            const TABLE: Table<'_> = Table {
+                entries: &[],
+                constants: &[],
+                defaults: &[],
+                limits: &[],
+                dummies: 0,
+                fingerprint: 0,
+            };
+            self.0.parts(&TABLE)
+        }
+    }
 
     #[test]
     fn the_old_content_stays_until_the_new_one_is_complete() {
@@ -145,36 +162,28 @@ mod tests {
             offset: 0,
             size: 0,
         };
-        let entries = [entry];
-        let table = Table {
-            entries: &entries,
-            constants: &[],
-            defaults: &[],
-            limits: &[],
-            dummies: 0,
-            fingerprint: 0,
-        };
-        let mut objects = Objects::new(&table, &mut []);
+        let mut node = Node::new(Empty(Memory::new([])), Settings::DEFAULT, NoStorage);
+        let mut node = node.services(Instant(0));
         let mut device = MemoryDevice::default();
-        let content = |device: &mut MemoryDevice, objects: &mut Objects<'_>| {
+        let content = |device: &mut MemoryDevice, node: &mut Services<'_>| {
             let mut buffer = [0; 20];
-            let count = device.read_domain(objects, &entry, 0, &mut buffer).unwrap();
+            let count = device.read_domain(node, &entry, 0, &mut buffer).unwrap();
             buffer[..count].to_vec()
         };
-        device.write_domain(&mut objects, &entry, 0, b"old", false).unwrap();
-        assert_eq!(content(&mut device, &mut objects), b"", "it is not complete");
-        device.write_domain(&mut objects, &entry, 3, b"", true).unwrap();
-        assert_eq!(content(&mut device, &mut objects), b"old");
-        device.write_domain(&mut objects, &entry, 0, b"newer", false).unwrap();
-        device.domain_broken_off(&mut objects, &entry, 5);
-        assert_eq!(content(&mut device, &mut objects), b"old");
+        device.write_domain(&mut node, &entry, 0, b"old", false).unwrap();
+        assert_eq!(content(&mut device, &mut node), b"", "it is not complete");
+        device.write_domain(&mut node, &entry, 3, b"", true).unwrap();
+        assert_eq!(content(&mut device, &mut node), b"old");
+        device.write_domain(&mut node, &entry, 0, b"newer", false).unwrap();
+        device.domain_broken_off(&mut node, &entry, 5);
+        assert_eq!(content(&mut device, &mut node), b"old");
         // Two clients: the second one begins, so the first one cannot go on, and its end does not harm the second one.
-        device.write_domain(&mut objects, &entry, 0, b"first", false).unwrap();
-        device.write_domain(&mut objects, &entry, 0, b"no", false).unwrap();
-        let refused = device.write_domain(&mut objects, &entry, 5, b"..", false);
+        device.write_domain(&mut node, &entry, 0, b"first", false).unwrap();
+        device.write_domain(&mut node, &entry, 0, b"no", false).unwrap();
+        let refused = device.write_domain(&mut node, &entry, 5, b"..", false);
         assert_eq!(refused, Err(AbortCode::DEVICE_STATE));
-        device.domain_broken_off(&mut objects, &entry, 5);
-        device.write_domain(&mut objects, &entry, 2, b"w", true).unwrap();
-        assert_eq!(content(&mut device, &mut objects), b"now");
+        device.domain_broken_off(&mut node, &entry, 5);
+        device.write_domain(&mut node, &entry, 2, b"w", true).unwrap();
+        assert_eq!(content(&mut device, &mut node), b"now");
     }
 }

@@ -39,6 +39,11 @@ pub struct Position(
     pub u16,
 );
 
+impl Position {
+    /// That of an entry which the device has and no table ([`Application::find`](crate::Application::find)).
+    pub(crate) const OF_DEVICE: Self = Self(u16::MAX);
+}
+
 impl<'a> Table<'a> {
     /// The position of the entry at `index` and `sub_index`.
     ///

@@ -1,10 +1,11 @@
 //! Which values a PDO carries.
 
 use super::{MOST_ENTRIES, Place};
+use crate::Application;
+use crate::Entry;
 use crate::context::Context;
-use crate::dictionary::{Flags, Position, raw};
-use crate::{Entry, Objects, Value};
-use edskit_types::{AbortCode, DataType, MappingEntry, PdoDirection};
+use crate::dictionary::{Flags, Position, unsigned};
+use edskit_types::{AbortCode, DataType, Index, MappingEntry, PdoDirection, SubIndex};
 
 /// The most bits of a PDO.
 pub(super) const MOST_BITS: u8 = 64;
@@ -12,17 +13,30 @@ pub(super) const MOST_BITS: u8 = 64;
 /// One value in a PDO: the entry, found once when the mapping is made, and its bits.
 #[derive(Clone, Copy, Debug)]
 pub struct Mapped {
-    /// `None` for a dummy, which only fills a gap.
-    position: Option<Position>,
+    source: Source,
     bits: u8,
+}
+
+/// Where a mapped value is.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// Nowhere: a dummy, which only fills a gap.
+    Dummy,
+    Dictionary(Position),
+    /// With the device, at this place.
+    Device(Index, SubIndex),
 }
 
 impl Mapped {
     /// A place for a value.
-    pub const NEW: Self = Self { position: None, bits: 0 };
+    pub const NEW: Self = Self { source: Source::Dummy, bits: 0 };
 
+    /// The entry of the dictionary.
     pub(crate) fn position(self) -> Option<Position> {
-        self.position
+        match self.source {
+            Source::Dictionary(position) => Some(position),
+            _ => None,
+        }
     }
 }
 
@@ -50,7 +64,7 @@ impl Slots {
 
     /// A bit for each value: those of the PDO are among those whose bits are set.
     pub(super) fn carries(self, mapped: &[Mapped]) -> u32 {
-        let positions = self.of(mapped).iter().filter_map(|value| value.position);
+        let positions = self.of(mapped).iter().filter_map(|value| value.position());
         positions.fold(0, |bits, position| bits | bit_of(position))
     }
 
@@ -65,43 +79,80 @@ pub(super) fn bit_of(position: Position) -> u32 {
     1 << (position.0 % 32)
 }
 
-/// The lowest `bits` bits.
+/// The lowest `bits` bits, 1 to 64: no mapped value has fewer, and no PDO more, so nothing is shifted too far.
 fn mask(bits: u8) -> u64 {
-    1_u64.checked_shl(bits.into()).map_or(u64::MAX, |bit| bit - 1)
+    u64::MAX.wrapping_shr(u32::from(MOST_BITS.wrapping_sub(bits)))
 }
 
-/// The data of a PDO: the present values one behind the other, the first one in the lowest bits.
-pub(super) fn gather(objects: &Objects<'_>, mapped: &[Mapped]) -> u64 {
-    let mut data = 0;
-    let mut offset = 0;
-    for value in mapped {
-        let bits = value.position.map_or(0, |position| raw(objects.bytes(position), false));
-        data |= (bits & mask(value.bits)).checked_shl(offset).unwrap_or(0);
-        offset += u32::from(value.bits);
+impl<A: Application + ?Sized> Context<'_, A> {
+    /// The data of a PDO: the present values one behind the other, the first one in the lowest bits.
+    pub(super) fn gather_values(&mut self, slots: Slots) -> u64 {
+        let mut data = 0;
+        let mut offset = 0;
+        for place in 0..slots.count {
+            let place = usize::from(slots.first) + usize::from(place);
+            let Some(value) = self.node.mapped.get(place).copied() else { continue };
+            let bits = match value.source {
+                Source::Dictionary(position) => unsigned(self.node.objects.bytes(position)),
+                Source::Device(index, sub_index) => self.value_of_device(index, sub_index),
+                Source::Dummy => 0,
+            };
+            data |= (bits & mask(value.bits)).wrapping_shl(offset);
+            offset += u32::from(value.bits);
+        }
+        data
     }
-    data
-}
 
-impl Context<'_> {
+    /// The present value of an entry that the device has itself.
+    #[inline(never)]
+    fn value_of_device(&mut self, index: Index, sub_index: SubIndex) -> u64 {
+        let mut buffer = [0; 8];
+        let read = match self.open(index, sub_index) {
+            Ok((_, entry)) => self.app.read_value(&mut self.node, &entry, &mut buffer),
+            Err(code) => Err(code),
+        };
+        // A PDO goes on whatever becomes of one of its values.
+        buffer.get(..read.unwrap_or(0)).map_or(0, unsigned)
+    }
+
     /// Puts the data of the RPDO with this number from 1 into the dictionary, by the rules that hold for clients: limits,
     /// those of the communication profile, and those of the device. A value that is refused is left out and told.
     pub(super) fn scatter(&mut self, number: u16, slots: Slots, mut data: u64) {
         for place in 0..slots.count {
             let place = usize::from(slots.first) + usize::from(place);
-            let Some(value) = self.mapped.get(place).copied() else { continue };
+            let Some(value) = self.node.mapped.get(place).copied() else { continue };
             let bits = data & mask(value.bits);
-            data = data.checked_shr(value.bits.into()).unwrap_or(0);
-            let Some(position) = value.position else { continue };
-            let Some(entry) = self.objects.table.entry(position) else { continue };
-            let mut bytes = [0; 8];
-            bits.to_bytes(&mut bytes);
+            data = data.wrapping_shr(value.bits.into());
+            let (position, entry) = match value.source {
+                Source::Dummy => continue,
+                Source::Dictionary(position) => match self.node.objects.table.entry(position) {
+                    Some(entry) => (position, *entry),
+                    None => continue,
+                },
+                Source::Device(index, sub_index) => match self.open(index, sub_index) {
+                    Ok(found) => found,
+                    Err(code) => {
+                        let size = value.bits.div_ceil(8).into();
+                        let data_type = DataType::OctetString;
+                        let entry = Entry::of_device(index, sub_index, data_type, Flags::RPDO, size);
+                        self.value_refused(number, &entry, code);
+                        continue;
+                    }
+                },
+            };
+            let entry = &entry;
+            let bytes = bits.to_le_bytes();
             let size = usize::from(value.bits.div_ceil(8));
             let bytes = bytes.get(..size).unwrap_or_default();
             if let Err(code) = self.bring(position, entry, bytes) {
-                self.core.refused_values = self.core.refused_values.saturating_add(1);
-                self.app.rpdo_value_refused(&mut self.objects, number, entry, code);
+                self.value_refused(number, entry, code);
             }
         }
+    }
+
+    fn value_refused(&mut self, number: u16, entry: &Entry, code: AbortCode) {
+        self.node.core.refused_values = self.node.core.refused_values.saturating_add(1);
+        self.app.rpdo_value_refused(&mut self.node, number, entry, code);
     }
 
     /// Whether a mapping entry can be carried in a direction, and what it stands for.
@@ -111,18 +162,14 @@ impl Context<'_> {
         mapping: MappingEntry,
     ) -> Result<Mapped, AbortCode> {
         let bits = mapping.bits();
-        let granularity = self.core.settings.granularity;
+        let granularity = self.node.core.settings.granularity;
         if granularity > 1 && !bits.is_multiple_of(granularity) {
             return Err(AbortCode::NOT_MAPPABLE);
         }
         if mapping.is_dummy() {
             return self.check_dummy(direction, mapping);
         }
-        let position = self.objects.table.find(mapping.index(), mapping.sub_index())?;
-        let entry = *self.objects.table.entry(position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)?;
-        if !self.exists(&entry) {
-            return Err(AbortCode::OBJECT_DOES_NOT_EXIST);
-        }
+        let (position, entry) = self.open(mapping.index(), mapping.sub_index())?;
         let right = match direction {
             PdoDirection::Receive => Flags::RPDO,
             PdoDirection::Transmit => Flags::TPDO,
@@ -133,14 +180,18 @@ impl Context<'_> {
         if !may_have(&entry, bits) {
             return Err(AbortCode::LENGTH_MISMATCH);
         }
-        Ok(Mapped { position: Some(position), bits })
+        let source = match position {
+            Position::OF_DEVICE => Source::Device(entry.index, entry.sub_index),
+            position => Source::Dictionary(position),
+        };
+        Ok(Mapped { source, bits })
     }
 
     /// A dummy fills a gap of an RPDO with a data type that the device allows for that.
     fn check_dummy(&self, direction: PdoDirection, mapping: MappingEntry) -> Result<Mapped, AbortCode> {
         let index = mapping.index();
         let is_allowed =
-            self.objects.table.dummies.checked_shr(index.0.into()).is_some_and(|bit| bit & 1 == 1);
+            self.node.objects.table.dummies.checked_shr(index.0.into()).is_some_and(|bit| bit & 1 == 1);
         let length = DataType::from_index(index).and_then(DataType::bits);
         if direction == PdoDirection::Transmit || !is_allowed || mapping.sub_index().0 != 0 {
             return Err(AbortCode::NOT_MAPPABLE);
@@ -148,12 +199,12 @@ impl Context<'_> {
         if length != Some(mapping.bits().into()) {
             return Err(AbortCode::LENGTH_MISMATCH);
         }
-        Ok(Mapped { position: None, bits: mapping.bits() })
+        Ok(Mapped { source: Source::Dummy, bits: mapping.bits() })
     }
 
     /// Whether an entry exists in the present configuration.
     pub(crate) fn exists(&mut self, entry: &Entry) -> bool {
-        !entry.flags.has(Flags::OPTIONAL) || self.app.is_present(&self.objects, entry)
+        !entry.flags.has(Flags::OPTIONAL) || self.app.is_present(&self.node, entry)
     }
 
     /// What the first `count` entries of a mapping parameter make up; with `takes` each gets its place.
@@ -173,14 +224,14 @@ impl Context<'_> {
         }
         let mut bits: u8 = 0;
         for number in 0..count {
-            let entry = self.objects.value(place.mapping(), number + 1).map(MappingEntry);
+            let entry = self.node.objects.value(place.mapping(), number + 1).map(MappingEntry);
             let entry = entry.ok_or(AbortCode::SUB_INDEX_DOES_NOT_EXIST)?;
             let mapped = self.check_entry(place.direction, entry)?;
             bits = bits.saturating_add(mapped.bits);
             if bits > MOST_BITS {
                 return Err(AbortCode::PDO_LENGTH_EXCEEDED);
             }
-            let slot = self.mapped.get_mut(usize::from(slots.first) + usize::from(number));
+            let slot = self.node.mapped.get_mut(usize::from(slots.first) + usize::from(number));
             if let Some(slot) = slot.filter(|_| takes) {
                 *slot = mapped;
             }
@@ -206,6 +257,6 @@ mod tests {
 
     #[test]
     fn masks() {
-        assert_eq!([mask(0), mask(1), mask(63), mask(64)], [0, 1, u64::MAX >> 1, u64::MAX]);
+        assert_eq!([mask(1), mask(8), mask(63), mask(64)], [1, 0xFF, u64::MAX >> 1, u64::MAX]);
     }
 }

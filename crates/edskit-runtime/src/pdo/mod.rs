@@ -2,15 +2,17 @@
 
 mod configure;
 mod mapping;
+mod policy;
 mod receive;
 mod transmit;
 
 pub use mapping::Mapped;
+pub use policy::{PdoPolicy, Remapping};
 pub use receive::Rpdo;
 pub use transmit::{NotSent, Tpdo};
 
 use crate::Microseconds;
-use edskit_types::{CanId, Index, PdoDirection, TransmissionType};
+use edskit_types::{CanId, Index, PdoDirection, Transmission};
 use mapping::Slots;
 
 /// How many PDOs of each direction there can be.
@@ -86,7 +88,8 @@ struct Parameters {
     can_id: Option<CanId>,
     /// Whether remote frames may ask for it.
     allows_rtr: bool,
-    transmission: TransmissionType,
+    /// What its transmission type means.
+    meaning: Transmission,
     /// Milliseconds after which a TPDO is sent again, or the longest time between two frames of an RPDO; 0 for none.
     event_time: u16,
     slots: Slots,
@@ -99,7 +102,7 @@ impl Parameters {
         number: 0,
         can_id: None,
         allows_rtr: false,
-        transmission: TransmissionType(0xFF),
+        meaning: Transmission::EventProfile,
         event_time: 0,
         slots: Slots::NONE,
         is_mapping_invalid: false,

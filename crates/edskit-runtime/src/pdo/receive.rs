@@ -1,11 +1,12 @@
 //! RPDOs: taking frames, the SYNC message, and the event time.
 
 use super::Parameters;
+use crate::Application;
 use crate::context::Context;
 use crate::dictionary::raw;
 use crate::time::Timer;
-use crate::{Error, Frame, Instant};
-use edskit_types::{CanId, NmtState, PdoDirection};
+use crate::{EmcyError, Frame, Instant};
+use edskit_types::{CanId, NmtState, Transmission};
 
 /// An RPDO at work.
 #[derive(Clone, Copy, Debug)]
@@ -40,23 +41,23 @@ impl Rpdo {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// What is left of an RPDO with other parameters. Of one that is not the same any more, nothing is. Data wait for SYNC
     /// only in a type that makes them wait. An event time that runs begins anew, and the error of the old one goes.
     pub(super) fn rpdo_changed(&mut self, place: usize, new: Parameters, is_remapped: bool) {
-        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         let old = core::mem::replace(&mut rpdo.parameters, new);
         if !new.is_same_pdo(&old, is_remapped) {
             self.end_rpdo(place);
             self.shortness_found(place, false, 0);
             return;
         }
-        if !new.transmission.is_synchronous(PdoDirection::Receive) {
+        if new.meaning != Transmission::Synchronous {
             rpdo.waiting = None;
         }
         if new.event_time != old.event_time {
             if rpdo.deadline.is_running() {
-                rpdo.deadline = Timer::after(self.now, new.event_time());
+                rpdo.deadline = Timer::after(self.node.now, new.event_time());
             }
             self.lateness_found(place, false);
         }
@@ -64,7 +65,7 @@ impl Context<'_> {
 
     /// An RPDO is not received any more: nothing waits, and nothing is missed. That a frame was too short stays true.
     pub(super) fn end_rpdo(&mut self, place: usize) {
-        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         rpdo.waiting = None;
         rpdo.deadline = Timer::OFF;
         self.lateness_found(place, false);
@@ -72,27 +73,27 @@ impl Context<'_> {
 
     /// Whether no frame has come in time.
     fn lateness_found(&mut self, place: usize, is_late: bool) {
-        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         let was_late = core::mem::replace(&mut rpdo.is_late, is_late);
         let [low, high] = rpdo.parameters.number.to_le_bytes();
-        self.found(Error::RPDO_TIME_OUT, was_late, is_late, [low, high, 0, 0, 0]);
+        self.found(EmcyError::RPDO_TIME_OUT, was_late, is_late, [low, high, 0, 0, 0]);
     }
 
     /// Whether the last frame was too short.
     fn shortness_found(&mut self, place: usize, is_short: bool, length: u8) {
-        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
+        let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         let was_short = core::mem::replace(&mut rpdo.is_short, is_short);
         let [low, high] = rpdo.parameters.number.to_le_bytes();
-        self.found(Error::PDO_LENGTH, was_short, is_short, [low, high, length, 0, 0]);
+        self.found(EmcyError::PDO_LENGTH, was_short, is_short, [low, high, length, 0, 0]);
     }
 
     /// A frame that may be that of one or more RPDOs; false where it is of none.
     pub(crate) fn rpdo_received(&mut self, can_id: CanId, frame: &Frame) -> bool {
         let mut is_taken = false;
-        for place in 0..self.rpdos.len() {
-            if self.rpdos.get(place).is_some_and(|rpdo| rpdo.takes(can_id)) {
+        for place in 0..self.node.rpdos.len() {
+            if self.node.rpdos.get(place).is_some_and(|rpdo| rpdo.takes(can_id)) {
                 is_taken = true;
-                if self.core.state == NmtState::Operational {
+                if self.node.core.state == NmtState::Operational {
                     self.take(place, frame);
                 }
             }
@@ -101,50 +102,52 @@ impl Context<'_> {
     }
 
     fn take(&mut self, place: usize, frame: &Frame) {
-        let Some(Rpdo { parameters, .. }) = self.rpdos.get(place) else { return };
-        let Parameters { number, slots, transmission, .. } = *parameters;
+        let Some(Rpdo { parameters, .. }) = self.node.rpdos.get(place) else { return };
+        let Parameters { number, slots, meaning, .. } = *parameters;
         let Some(data) = frame.data().get(..slots.bytes()) else {
             self.shortness_found(place, true, frame.data().len() as u8);
             return;
         };
         let data = raw(data, false);
-        let is_synchronous = transmission.is_synchronous(PdoDirection::Receive);
+        let is_synchronous = meaning == Transmission::Synchronous;
         let is_in_time = !is_synchronous || !self.window_has_passed();
-        let Some(rpdo) = self.rpdos.get_mut(place) else { return };
-        rpdo.deadline = Timer::after(self.now, rpdo.parameters.event_time());
+        let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
+        rpdo.deadline = Timer::after(self.node.now, rpdo.parameters.event_time());
         if is_synchronous && is_in_time {
             rpdo.waiting = Some(data);
         }
-        self.shortness_found(place, false, 0);
-        self.lateness_found(place, false);
+        if rpdo.is_short || rpdo.is_late {
+            self.shortness_found(place, false, 0);
+            self.lateness_found(place, false);
+        }
         if !is_synchronous {
             self.scatter(number, slots, data);
-            self.app.rpdo_received(&mut self.objects, number);
+            self.app.rpdo_received(&mut self.node, number);
         }
     }
 
     /// The SYNC message makes the data count that were received before it.
     pub(crate) fn apply_synchronous_rpdos(&mut self) {
-        if self.core.state != NmtState::Operational {
+        if self.node.core.state != NmtState::Operational {
             return;
         }
-        for place in 0..self.rpdos.len() {
-            let Some(rpdo) = self.rpdos.get_mut(place) else { continue };
+        for place in 0..self.node.rpdos.len() {
+            let Some(rpdo) = self.node.rpdos.get_mut(place) else { continue };
             let Some(data) = rpdo.waiting.take() else { continue };
             let (number, slots) = (rpdo.parameters.number, rpdo.parameters.slots);
             self.scatter(number, slots, data);
-            self.app.rpdo_received(&mut self.objects, number);
+            self.app.rpdo_received(&mut self.node, number);
         }
     }
 
     pub(crate) fn poll_rpdos(&mut self) {
-        for place in 0..self.rpdos.len() {
-            let Some(rpdo) = self.rpdos.get_mut(place) else { continue };
-            if rpdo.deadline.is_due(self.now) {
+        for place in 0..self.node.rpdos.len() {
+            let Some(rpdo) = self.node.rpdos.get_mut(place) else { continue };
+            if rpdo.deadline.is_due(self.node.now) {
                 rpdo.deadline = Timer::OFF;
                 let number = rpdo.parameters.number;
                 self.lateness_found(place, true);
-                self.app.rpdo_timed_out(&mut self.objects, number);
+                self.app.rpdo_timed_out(&mut self.node, number);
             }
         }
     }

@@ -1,12 +1,14 @@
 //! TPDOs: when they are sent, and why they are not.
 
 use super::Parameters;
-use super::mapping::{bit_of, gather};
+use super::mapping::bit_of;
+use crate::Application;
 use crate::context::Context;
 use crate::dictionary::Position;
+use crate::services::Services;
 use crate::time::Timer;
 use crate::{Instant, Microseconds};
-use edskit_types::{CanId, NmtState, PdoDirection, Transmission};
+use edskit_types::{CanId, NmtState, Transmission};
 
 /// A TPDO at work.
 #[derive(Clone, Copy, Debug)]
@@ -49,9 +51,8 @@ impl Tpdo {
         sample: None,
     };
 
-    #[inline(never)]
     fn meaning(&self) -> Transmission {
-        self.parameters.transmission.meaning(PdoDirection::Transmit)
+        self.parameters.meaning
     }
 
     fn is_event_driven(&self) -> bool {
@@ -151,66 +152,9 @@ pub enum NotSent {
     QueueFull,
 }
 
-impl Context<'_> {
-    /// What is left of a TPDO with other parameters. Of one that is not the same any more, nothing is: it begins. A sample,
-    /// a count and a transmission that waits for room belong to the transmission type; an event stays one as long as the
-    /// type has events. The event timer runs as long as type and time ask for it, and begins anew when its time is another.
-    pub(super) fn tpdo_changed(
-        &mut self,
-        place: usize,
-        new: Parameters,
-        inhibit_time: u16,
-        sync_start: u8,
-        is_remapped: bool,
-    ) {
-        let is_operational = self.core.state == NmtState::Operational;
-        let Some(tpdo) = self.tpdos.get_mut(place) else { return };
-        // The device may change what a client cannot while the PDO exists.
-        let has_other_times = inhibit_time != tpdo.inhibit_time || sync_start != tpdo.sync_start;
-        let is_same = new.is_same_pdo(&tpdo.parameters, is_remapped) && !has_other_times;
-        let (old_meaning, old_period) = (tpdo.meaning(), tpdo.event_period());
-        tpdo.parameters = new;
-        tpdo.inhibit_time = inhibit_time;
-        tpdo.sync_start = sync_start;
-        tpdo.carries = new.slots.carries(self.mapped);
-        if !is_same {
-            tpdo.end();
-            if is_operational {
-                tpdo.begin(self.now, self.app.sends_at_start(new.number));
-            }
-            return;
-        }
-        if tpdo.meaning() != old_meaning {
-            tpdo.end_of_type();
-            tpdo.is_due &= tpdo.has_events();
-        } else if !new.allows_rtr && !tpdo.is_of_a_period() {
-            tpdo.is_ready = false;
-        }
-        if is_operational && tpdo.event_period() != old_period {
-            tpdo.event = Timer::after(self.now, tpdo.event_period());
-        }
-    }
-
-    /// Every PDO begins anew: the state operational is entered.
-    pub(crate) fn start_pdos(&mut self) {
-        for tpdo in self.tpdos.iter_mut() {
-            tpdo.begin(self.now, self.app.sends_at_start(tpdo.parameters.number));
-        }
-        self.core.next_tpdo = 0;
-    }
-
-    /// The state operational is left: no PDO is sent or received any more.
-    pub(crate) fn stop_pdos(&mut self) {
-        for tpdo in self.tpdos.iter_mut() {
-            tpdo.end();
-        }
-        for place in 0..self.rpdos.len() {
-            self.end_rpdo(place);
-        }
-    }
-
+impl Services<'_> {
     /// An event of the TPDO with this number from 1 has happened.
-    pub(crate) fn tpdo_event(&mut self, number: u16) {
+    pub fn trigger(&mut self, number: u16) {
         if self.core.state == NmtState::Operational {
             let is_it = |tpdo: &&mut Tpdo| tpdo.parameters.number == number;
             if let Some(tpdo) = self.tpdos.iter_mut().find(is_it) {
@@ -232,38 +176,103 @@ impl Context<'_> {
             }
         }
     }
+}
+
+impl<A: Application + ?Sized> Context<'_, A> {
+    /// What is left of a TPDO with other parameters. Of one that is not the same any more, nothing is: it begins. A sample,
+    /// a count and a transmission that waits for room belong to the transmission type; an event stays one as long as the
+    /// type has events. The event timer runs as long as type and time ask for it, and begins anew when its time is another.
+    pub(super) fn tpdo_changed(
+        &mut self,
+        place: usize,
+        new: Parameters,
+        inhibit_time: u16,
+        sync_start: u8,
+        is_remapped: bool,
+    ) {
+        let is_operational = self.node.core.state == NmtState::Operational;
+        let Some(tpdo) = self.node.tpdos.get_mut(place) else { return };
+        // The device may change what a client cannot while the PDO exists.
+        let has_other_times = inhibit_time != tpdo.inhibit_time || sync_start != tpdo.sync_start;
+        let is_same = new.is_same_pdo(&tpdo.parameters, is_remapped) && !has_other_times;
+        let (old_meaning, old_period) = (tpdo.meaning(), tpdo.event_period());
+        tpdo.parameters = new;
+        tpdo.inhibit_time = inhibit_time;
+        tpdo.sync_start = sync_start;
+        tpdo.carries = new.slots.carries(self.node.mapped);
+        if !is_same {
+            tpdo.end();
+            if is_operational {
+                tpdo.begin(self.node.now, self.app.sends_at_start(new.number));
+            }
+            return;
+        }
+        if tpdo.meaning() != old_meaning {
+            tpdo.end_of_type();
+            tpdo.is_due &= tpdo.has_events();
+        } else if !new.allows_rtr && !tpdo.is_of_a_period() {
+            tpdo.is_ready = false;
+        }
+        if is_operational && tpdo.event_period() != old_period {
+            tpdo.event = Timer::after(self.node.now, tpdo.event_period());
+        }
+    }
+
+    /// Every PDO begins anew: the state operational is entered.
+    pub(crate) fn start_pdos(&mut self) {
+        for tpdo in self.node.tpdos.iter_mut() {
+            tpdo.begin(self.node.now, self.app.sends_at_start(tpdo.parameters.number));
+        }
+        self.node.core.next_tpdo = 0;
+    }
+
+    /// The state operational is left: no PDO is sent or received any more.
+    pub(crate) fn stop_pdos(&mut self) {
+        for tpdo in self.node.tpdos.iter_mut() {
+            tpdo.end();
+        }
+        for place in 0..self.node.rpdos.len() {
+            self.end_rpdo(place);
+        }
+    }
 
     /// Sends what is due, beginning with the TPDO for which there was no room the last time.
     pub(crate) fn poll_tpdos(&mut self) {
-        if self.core.state != NmtState::Operational {
+        if self.node.core.state != NmtState::Operational {
+            return;
+        }
+        let now = self.node.now;
+        let is_calm = |tpdo: &Tpdo| !(tpdo.is_ready || tpdo.is_due || tpdo.event.is_due(now));
+        if self.node.tpdos.iter().all(is_calm) {
+            self.node.core.next_tpdo = 0;
             return;
         }
         let mut without_room = None;
-        let count = self.tpdos.len();
+        let count = self.node.tpdos.len();
         for step in 0..count {
-            let place = usize::from(self.core.next_tpdo) + step;
+            let place = usize::from(self.node.core.next_tpdo) + step;
             let place = if place < count { place } else { place - count };
-            let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
-            if tpdo.event.is_due(self.now) {
-                tpdo.event = tpdo.event.again(self.now, tpdo.event_period());
+            let Some(tpdo) = self.node.tpdos.get_mut(place) else { continue };
+            if tpdo.event.is_due(self.node.now) {
+                tpdo.event = tpdo.event.again(self.node.now, tpdo.event_period());
                 tpdo.is_due = true;
             }
-            let is_sent_by_event = tpdo.is_due && tpdo.is_event_driven() && !tpdo.is_inhibited(self.now);
+            let is_sent_by_event = tpdo.is_due && tpdo.is_event_driven() && !tpdo.is_inhibited(self.node.now);
             if (tpdo.is_ready || is_sent_by_event) && !self.send(place) {
                 without_room.get_or_insert(place as u16);
             }
         }
-        self.core.next_tpdo = without_room.unwrap_or(0);
+        self.node.core.next_tpdo = without_room.unwrap_or(0);
     }
 
     /// The SYNC message has come.
     pub(crate) fn send_synchronous_tpdos(&mut self, counter: Option<u8>) {
-        if self.core.state != NmtState::Operational {
+        if self.node.core.state != NmtState::Operational {
             return;
         }
-        for place in 0..self.tpdos.len() {
+        for place in 0..self.node.tpdos.len() {
             self.lose_late(place);
-            let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
+            let Some(tpdo) = self.node.tpdos.get_mut(place) else { continue };
             let has_turn = match tpdo.meaning() {
                 Transmission::SynchronousAcyclic => tpdo.is_due,
                 Transmission::SynchronousCyclic(every) => {
@@ -287,7 +296,7 @@ impl Context<'_> {
             };
             if has_turn && tpdo.is_usable() {
                 let sample = self.gather(place);
-                let Some(tpdo) = self.tpdos.get_mut(place) else { continue };
+                let Some(tpdo) = self.node.tpdos.get_mut(place) else { continue };
                 tpdo.sample = Some(sample);
                 if tpdo.is_of_a_period() {
                     tpdo.is_due = false;
@@ -300,24 +309,24 @@ impl Context<'_> {
 
     /// What could not be sent in the period that it belongs to is lost, and that is told.
     fn lose_late(&mut self, place: usize) {
-        let Some(tpdo) = self.tpdos.get_mut(place) else { return };
+        let Some(tpdo) = self.node.tpdos.get_mut(place) else { return };
         if tpdo.is_ready && tpdo.is_of_a_period() && tpdo.sample.take().is_some() {
             tpdo.is_ready = false;
-            self.core.queue.note_loss();
+            self.node.core.queue.note_loss();
         }
     }
 
     /// A remote frame that may ask for a TPDO. It is answered within the inhibit time too.
     pub(crate) fn tpdo_requested(&mut self, can_id: CanId) {
-        if self.core.state != NmtState::Operational {
+        if self.node.core.state != NmtState::Operational {
             return;
         }
-        // Bit 30 of the COB-ID forbids remote requests.
+        // Bit 30 of the COB-ID forbids remote requests, or the device does.
         let is_asked = |tpdo: &Tpdo| {
             tpdo.is_usable() && tpdo.parameters.allows_rtr && tpdo.parameters.can_id == Some(can_id)
         };
-        let Some(place) = self.tpdos.iter().position(is_asked) else { return };
-        let Some(tpdo) = self.tpdos.get_mut(place) else { return };
+        let Some(place) = self.node.tpdos.iter().position(is_asked) else { return };
+        let Some(tpdo) = self.node.tpdos.get_mut(place) else { return };
         if tpdo.meaning() != Transmission::RtrSynchronous || tpdo.sample.is_some() {
             tpdo.is_ready = true;
             self.send(place);
@@ -326,23 +335,24 @@ impl Context<'_> {
 
     /// The present data of a TPDO.
     fn gather(&mut self, place: usize) -> u64 {
-        let Some(tpdo) = self.tpdos.get(place) else { return 0 };
-        let slots = tpdo.parameters.slots;
-        self.app.tpdo_due(&mut self.objects, tpdo.parameters.number);
-        for mapped in slots.of(self.mapped) {
-            let entry = mapped.position().and_then(|position| self.objects.table.entry(position));
+        let Some(tpdo) = self.node.tpdos.get(place) else { return 0 };
+        let Parameters { number, slots, .. } = tpdo.parameters;
+        self.app.tpdo_due(&mut self.node, number);
+        for place in 0..slots.count {
+            let mapped = self.node.mapped.get(usize::from(slots.first) + usize::from(place));
+            let entry = mapped.and_then(|mapped| self.node.objects.table.entry(mapped.position()?));
             if let Some(entry) = entry {
                 // A PDO carries the last value where the device has none at the moment.
-                let _ = self.app.before_read(&mut self.objects, entry);
+                let _ = self.app.before_read(&mut self.node, entry);
             }
         }
-        gather(&self.objects, slots.of(self.mapped))
+        self.gather_values(slots)
     }
 
     /// Sends a TPDO, with the data of its SYNC message where there are any; false where the queue has no room.
     fn send(&mut self, place: usize) -> bool {
-        let Some(tpdo) = self.tpdos.get(place).filter(|tpdo| tpdo.is_usable()) else { return true };
-        if self.core.queue.room() == 0 {
+        let Some(tpdo) = self.node.tpdos.get(place).filter(|tpdo| tpdo.is_usable()) else { return true };
+        if self.node.core.queue.room() == 0 {
             return false;
         }
         let sample = tpdo.sample;
@@ -351,31 +361,34 @@ impl Context<'_> {
             return true;
         }
         let data = sample.unwrap_or_else(|| self.gather(place));
-        let Some(tpdo) = self.tpdos.get_mut(place) else { return true };
+        let Some(tpdo) = self.node.tpdos.get_mut(place) else { return true };
         let Some(can_id) = tpdo.parameters.can_id else { return true };
         let bytes = data.to_le_bytes();
         let bytes = bytes.get(..tpdo.parameters.slots.bytes()).unwrap_or_default();
-        self.core.queue.send(can_id, bytes);
+        self.node.core.queue.send(can_id, bytes);
         tpdo.is_ready = false;
         if tpdo.meaning() != Transmission::RtrSynchronous {
             tpdo.sample = None;
         }
         // An event since the SYNC message is not in these data.
         tpdo.is_due &= sample.is_some();
-        tpdo.inhibit = Timer::after(self.now, Microseconds::from_inhibit_time(tpdo.inhibit_time));
+        tpdo.inhibit = Timer::after(self.node.now, Microseconds::from_inhibit_time(tpdo.inhibit_time));
         true
     }
 
     /// Why the TPDO with this number from 1 is not being sent at the moment.
     pub(crate) fn why_not_sent(&self, number: u16) -> NotSent {
-        let Some(tpdo) = self.tpdos.iter().find(|tpdo| tpdo.parameters.number == number && number > 0) else {
+        let Some(tpdo) = self.node.tpdos.iter().find(|tpdo| tpdo.parameters.number == number && number > 0)
+        else {
             return NotSent::NoSuchPdo;
         };
         match tpdo.meaning() {
             _ if tpdo.parameters.can_id.is_none() => NotSent::Disabled,
             _ if tpdo.parameters.is_mapping_invalid => NotSent::MappingInvalid,
             _ if tpdo.parameters.slots.count == 0 => NotSent::NothingMapped,
-            _ if self.core.state != NmtState::Operational => NotSent::NotOperational(self.core.state),
+            _ if self.node.core.state != NmtState::Operational => {
+                NotSent::NotOperational(self.node.core.state)
+            }
             _ if tpdo.is_ready => NotSent::QueueFull,
             Transmission::SynchronousAcyclic if tpdo.is_due => NotSent::WaitsForSync(1),
             Transmission::SynchronousCyclic(_) if tpdo.waits_for_start => {
@@ -384,7 +397,7 @@ impl Context<'_> {
             Transmission::SynchronousCyclic(every) => NotSent::WaitsForSync(every.saturating_sub(tpdo.syncs)),
             Transmission::RtrSynchronous | Transmission::RtrEvent => NotSent::WaitsForRequest,
             _ if !tpdo.is_due => NotSent::NoEvent(tpdo.event.deadline()),
-            _ if tpdo.is_inhibited(self.now) => NotSent::Inhibited(tpdo.inhibit.deadline()),
+            _ if tpdo.is_inhibited(self.node.now) => NotSent::Inhibited(tpdo.inhibit.deadline()),
             _ => NotSent::QueueFull,
         }
     }

@@ -1,6 +1,7 @@
 //! Block uploads: the client reads, and acknowledges whole blocks of segments.
 
 use super::{BLOCK_CRC, Item, LAST_SEGMENT, MOST_SEGMENTS, Next, Request, SEGMENT, Session, Step, Transfer};
+use crate::Application;
 use crate::context::Context;
 use crate::crc::Crc;
 use edskit_types::AbortCode;
@@ -39,7 +40,7 @@ impl BlockUpload {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_block_upload(
         &mut self,
         number: usize,
@@ -49,10 +50,11 @@ impl Context<'_> {
         let [command, _, _, _, block_size, threshold, ..] = *request;
         self.open_source(number, &mut session.item)?;
         check_block_size(block_size)?;
-        let item = &session.item;
+        let item = &mut session.item;
         if threshold > 0 && item.length.is_some_and(|length| length <= threshold.into()) {
             return self.begin_upload_of(number, session);
         }
+        self.hold_source(number, item);
         let answer = 0xC0 | BLOCK_CRC | u8::from(item.length.is_some()) << 1;
         self.answer_about(number, answer, item, item.length.unwrap_or(0).to_le_bytes());
         session.transfer = Transfer::BlockUpload(BlockUpload {
@@ -122,7 +124,7 @@ impl Context<'_> {
 
     /// Sends as many segments of the block as the queue has room for.
     pub(super) fn send_block(&mut self, number: usize, item: &Item, upload: &mut BlockUpload) -> Step {
-        while self.core.queue.room() > 0 {
+        while self.node.core.queue.room() > 0 {
             let offset = item.offset + u32::from(upload.sent) * SEGMENT as u32;
             let mut segment = [0; SEGMENT];
             let count = self.read_item(number, item, offset, &mut segment)?;

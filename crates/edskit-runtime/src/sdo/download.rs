@@ -3,10 +3,11 @@
 use super::{
     EXPEDITED, Item, Next, Request, SEGMENT, Session, Step, TOGGLE, Transfer, number_of, take_toggle,
 };
+use crate::Application;
 use crate::context::Context;
-use edskit_types::DataType;
+use edskit_types::{AbortCode, DataType};
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_download(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
         let [command, _, _, _, data @ ..] = request;
         let (is_expedited, says_length) = (command & 2 != 0, command & 1 != 0);
@@ -14,13 +15,15 @@ impl Context<'_> {
         let next = if is_expedited {
             let announced = says_length.then(|| EXPEDITED as u32 - u32::from(command >> 2 & 3));
             self.open_target(item, announced)?;
-            let entry = self.entry_of(item)?;
+            let entry = &item.entry;
             // Without a length, so many bytes count as the type has; where that fixes none, all four.
             let is_fixed = entry.data_type != DataType::Domain && !entry.data_type.is_string();
             let size = if is_fixed { u32::from(entry.size) } else { EXPEDITED as u32 };
             let length = announced.unwrap_or(size).min(EXPEDITED as u32) as usize;
             self.append(number, item, data.get(..length).unwrap_or_default())?;
             self.finish(number, item)?
+        } else if !self.node.core.settings.has_segmented_transfer {
+            return Err(AbortCode::UNKNOWN_COMMAND);
         } else {
             self.open_target(item, says_length.then(|| number_of(request)))?;
             session.transfer = Transfer::Download { toggle: 0 };

@@ -1,16 +1,17 @@
 //! The value that a transfer is about: opening it, and moving its bytes.
 
 use super::{SEGMENT, Step};
+use crate::Application;
 use crate::context::Context;
-use crate::dictionary::{Entry, Position, copy};
+use crate::dictionary::{Entry, Flags, Position, copy};
 use core::ops::Range;
 use edskit_types::{AbortCode, DataType, Index, SubIndex};
 
 /// The value that a transfer is about, and how much of it is through.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Item {
-    pub(super) index: Index,
-    pub(super) sub_index: SubIndex,
+    /// The entry; before it has been found, its index and sub-index.
+    pub(super) entry: Entry,
     position: Position,
     origin: Origin,
     /// How many bytes there are; `None` while that is not known.
@@ -32,13 +33,17 @@ enum Origin {
 
 impl Item {
     pub(super) const NONE: Self = Self {
-        index: Index(0),
-        sub_index: SubIndex(0),
+        entry: Entry::of_device(Index(0), SubIndex(0), DataType::Unsigned8, Flags::NONE, 0),
         position: Position(0),
         origin: Origin::Buffer,
         length: None,
         offset: 0,
     };
+
+    /// Whether the value is a DOMAIN.
+    pub(super) fn is_domain(&self) -> bool {
+        self.origin == Origin::Domain
+    }
 
     /// Whether a segment of so many bytes from `offset` on ends the value.
     pub(super) fn ends_with(&self, offset: u32, count: usize) -> bool {
@@ -46,25 +51,52 @@ impl Item {
     }
 }
 
-impl<'a> Context<'a> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Opens a value for reading.
     pub(super) fn open_source(&mut self, number: usize, item: &mut Item) -> Result<(), AbortCode> {
-        let (position, entry) = self.open(item.index, item.sub_index)?;
-        self.begin_read(entry)?;
+        let (position, entry) = self.open(item.entry.index, item.entry.sub_index)?;
+        let entry = &entry;
+        item.entry = *entry;
         item.position = position;
         item.offset = 0;
+        self.begin_read(entry)?;
+        if position == Position::OF_DEVICE && entry.data_type != DataType::Domain {
+            return self.open_source_of_device(number, item);
+        }
         if entry.data_type == DataType::Domain {
             item.origin = Origin::Domain;
-            item.length = self.app.domain_length(&mut self.objects, entry)?;
+            item.length = self.app.domain_length(&mut self.node, entry)?;
             return Ok(());
         }
-        let share = self.share(number);
-        let value = self.objects.bytes(position);
-        let buffer = self.buffers.get_mut(share).unwrap_or_default();
-        item.origin = if value.len() <= buffer.len() { Origin::Buffer } else { Origin::Dictionary };
-        item.length = Some(value.len() as u32);
-        copy(buffer, value);
+        item.origin = Origin::Dictionary;
+        item.length = Some(self.node.objects.bytes(position).len() as u32);
         Ok(())
+    }
+
+    /// Opens a value that the device has itself.
+    #[inline(never)]
+    fn open_source_of_device(&mut self, number: usize, item: &mut Item) -> Result<(), AbortCode> {
+        // The buffer leaves the context while the device fills it.
+        let share = self.share(number);
+        let buffers = core::mem::take(&mut self.node.buffers);
+        let buffer = buffers.get_mut(share).unwrap_or_default();
+        let read = self.app.read_value(&mut self.node, &item.entry, buffer);
+        let most = buffer.len();
+        self.node.buffers = buffers;
+        item.origin = Origin::Buffer;
+        item.length = Some(read?.min(most) as u32);
+        Ok(())
+    }
+
+    /// Keeps a value that is not answered at once from changing while it is read.
+    pub(super) fn hold_source(&mut self, number: usize, item: &mut Item) {
+        let share = self.share(number);
+        let value = self.node.objects.bytes(item.position);
+        let buffer = self.node.buffers.get_mut(share).unwrap_or_default();
+        if item.origin == Origin::Dictionary && value.len() <= buffer.len() {
+            item.origin = Origin::Buffer;
+            copy(buffer, value);
+        }
     }
 
     /// Reads bytes of a value from `offset` on, as many as there are and fit, and says how many.
@@ -77,12 +109,11 @@ impl<'a> Context<'a> {
     ) -> Result<usize, AbortCode> {
         let value = match item.origin {
             Origin::Domain => {
-                let entry = self.entry_of(item)?;
-                let read = self.app.read_domain(&mut self.objects, entry, offset, segment)?;
+                let read = self.app.read_domain(&mut self.node, &item.entry, offset, segment)?;
                 return Ok(read.min(segment.len()));
             }
             Origin::Buffer => self.buffer(number),
-            Origin::Dictionary => self.objects.bytes(item.position),
+            Origin::Dictionary => self.node.objects.bytes(item.position),
         };
         let end = value.len().min(item.length.unwrap_or_default() as usize);
         let value = value.get(offset as usize..end).unwrap_or_default();
@@ -92,8 +123,10 @@ impl<'a> Context<'a> {
 
     /// Opens an entry for writing so many bytes; `None` where the client does not say how many.
     pub(super) fn open_target(&mut self, item: &mut Item, announced: Option<u32>) -> Result<(), AbortCode> {
-        let (position, entry) = self.open(item.index, item.sub_index)?;
-        self.app.check_write(&self.objects, entry, announced.map(|length| length as usize))?;
+        let (position, entry) = self.open(item.entry.index, item.entry.sub_index)?;
+        let entry = &entry;
+        item.entry = *entry;
+        self.app.check_write(&self.node, entry, announced.map(|length| length as usize))?;
         item.position = position;
         item.origin = if entry.data_type == DataType::Domain { Origin::Domain } else { Origin::Buffer };
         item.length = announced;
@@ -101,22 +134,13 @@ impl<'a> Context<'a> {
         Ok(())
     }
 
-    /// The DOMAIN that a transfer is about; `None` where it is about another value.
-    pub(super) fn domain_of(&self, item: &Item) -> Option<&'a Entry> {
-        self.entry_of(item).ok().filter(|_| item.origin == Origin::Domain)
-    }
-
-    pub(super) fn entry_of(&self, item: &Item) -> Result<&'a Entry, AbortCode> {
-        self.objects.table.entry(item.position).ok_or(AbortCode::OBJECT_DOES_NOT_EXIST)
-    }
-
     /// Takes further bytes of a value. Those of a DOMAIN go to the application at once.
     pub(super) fn append(&mut self, number: usize, item: &mut Item, data: &[u8]) -> Result<(), AbortCode> {
-        let entry = self.entry_of(item)?;
+        let entry = &item.entry;
         let offset = item.offset;
         let end = offset.saturating_add(data.len() as u32);
         if item.origin == Origin::Domain {
-            self.app.write_domain(&mut self.objects, entry, offset, data, false)?;
+            self.app.write_domain(&mut self.node, entry, offset, data, false)?;
         } else {
             if end > u32::from(entry.size) {
                 return Err(AbortCode::LENGTH_TOO_HIGH);
@@ -138,17 +162,17 @@ impl<'a> Context<'a> {
                 return Err(AbortCode::LENGTH_TOO_HIGH);
             }
         }
-        let entry = self.entry_of(item)?;
+        let entry = &item.entry;
         if item.origin == Origin::Domain {
-            self.app.write_domain(&mut self.objects, entry, item.offset, &[], true)?;
-            self.app.after_write(&mut self.objects, entry);
+            self.app.write_domain(&mut self.node, entry, item.offset, &[], true)?;
+            self.app.after_write(&mut self.node, entry);
         } else {
             // The buffer leaves the context while the value is written, since hooks get the rest of it.
             let share = self.share(number);
-            let buffers = core::mem::take(&mut self.buffers);
+            let buffers = core::mem::take(&mut self.node.buffers);
             let value = buffers.get(share).and_then(|buffer| buffer.get(..item.offset as usize));
             let written = self.write(item.position, entry, value.unwrap_or_default());
-            self.buffers = buffers;
+            self.node.buffers = buffers;
             written?;
         }
         Ok(super::Next::End)
@@ -156,13 +180,13 @@ impl<'a> Context<'a> {
 
     /// Where in the buffers the part of a server lies: all parts are equal.
     fn share(&self, number: usize) -> Range<usize> {
-        let size = self.buffers.len().checked_div(self.servers.len()).unwrap_or(0);
+        let size = self.node.buffers.len().checked_div(self.node.servers.len()).unwrap_or(0);
         number * size..(number + 1) * size
     }
 
     /// The part of the buffers that belongs to a server.
     fn buffer(&mut self, number: usize) -> &mut [u8] {
         let share = self.share(number);
-        self.buffers.get_mut(share).unwrap_or_default()
+        self.node.buffers.get_mut(share).unwrap_or_default()
     }
 }

@@ -6,9 +6,10 @@ mod download;
 mod item;
 mod upload;
 
+use crate::Application;
 use crate::context::Context;
 use crate::time::Timer;
-use crate::{Frame, Instant, MOST_DATA, Microseconds};
+use crate::{Entry, Frame, Instant, MOST_DATA, Microseconds};
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
 use edskit_types::{AbortCode, CanId, CobId, Index, NodeId, SubIndex};
@@ -45,19 +46,25 @@ pub struct SdoServer {
     /// The identifiers of requests and responses; `None` while it is not in use.
     can_ids: Option<(CanId, CanId)>,
     session: Session,
-    /// A response for which the queue has had no room yet.
+    /// A response for which the queue has had no room yet, or whose time has not come.
     response: Option<Request>,
+    /// When it may be sent: runs while the device works on the request.
+    held: Timer,
 }
 
 impl SdoServer {
     /// A place for a server.
-    pub const NEW: Self = Self { index: DEFAULT, can_ids: None, session: Session::NONE, response: None };
+    pub const NEW: Self =
+        Self { index: DEFAULT, can_ids: None, session: Session::NONE, response: None, held: Timer::OFF };
 
     pub(crate) fn takes(&self, can_id: CanId) -> bool {
         self.can_ids.is_some_and(|(request, _)| request == can_id)
     }
 
     pub(crate) fn deadline(&self, has_room: bool) -> Instant {
+        if self.held.is_running() {
+            return self.held.deadline();
+        }
         if has_room && (self.session.is_sending() || self.response.is_some()) {
             return Instant::default();
         }
@@ -77,6 +84,12 @@ struct Session {
 
 impl Session {
     const NONE: Self = Self { transfer: Transfer::None, item: Item::NONE, time_out: Timer::OFF };
+
+    /// Nothing runs any more.
+    fn end(&mut self) {
+        self.transfer = Transfer::None;
+        self.time_out = Timer::OFF;
+    }
 
     /// Whether it is the server's turn, not the client's.
     fn is_sending(&self) -> bool {
@@ -129,20 +142,20 @@ fn take_toggle(toggle: &mut u8, command: u8) -> Result<(), AbortCode> {
     Ok(())
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes the servers from 1200h to 127Fh; the default server works without any object.
     pub(crate) fn configure_servers(&mut self) {
-        self.servers.fill(SdoServer::NEW);
+        self.node.servers.fill(SdoServer::NEW);
         let first = [DEFAULT].into_iter();
-        let table = self.objects.table;
+        let table = self.node.objects.table;
         let others = table.entries_from(Index(DEFAULT.0 + 1));
         let others = others.take_while(|(_, entry)| entry.index.0 < Index::SDO_CLIENT.0);
         let others = others.filter(|(_, entry)| entry.sub_index.0 == REQUEST).map(|(_, entry)| entry.index);
-        for (server, index) in self.servers.iter_mut().zip(first.chain(others)) {
+        for (server, index) in self.node.servers.iter_mut().zip(first.chain(others)) {
             server.index = index;
         }
-        for place in 0..self.servers.len() {
-            if let Some(index) = self.servers.get(place).map(|server| server.index)
+        for place in 0..self.node.servers.len() {
+            if let Some(index) = self.node.servers.get(place).map(|server| server.index)
                 && (place == 0 || index != DEFAULT)
             {
                 self.configure_server(index);
@@ -152,13 +165,16 @@ impl Context<'_> {
 
     /// What follows from the parameters of a server: with other identifiers, its transfer ends without a word.
     pub(crate) fn configure_server(&mut self, index: Index) {
-        let can_ids =
-            if index == DEFAULT { self.core.node_id.and_then(default_can_ids) } else { self.can_ids(index) };
-        let Some(number) = self.servers.iter().position(|server| server.index == index) else { return };
-        if self.servers.get(number).is_some_and(|server| server.can_ids != can_ids) {
+        let can_ids = if index == DEFAULT {
+            self.node.core.node_id.and_then(default_can_ids)
+        } else {
+            self.can_ids(index)
+        };
+        let Some(number) = self.node.servers.iter().position(|server| server.index == index) else { return };
+        if self.node.servers.get(number).is_some_and(|server| server.can_ids != can_ids) {
             self.end_transfer(number);
         }
-        if let Some(server) = self.servers.get_mut(number) {
+        if let Some(server) = self.node.servers.get_mut(number) {
             server.can_ids = can_ids;
         }
     }
@@ -169,7 +185,7 @@ impl Context<'_> {
     }
 
     fn server_can_id(&self, index: Index, sub_index: u8) -> Option<CanId> {
-        let cob_id = self.objects.value(index, sub_index).map(CobId)?;
+        let cob_id = self.node.objects.value(index, sub_index).map(CobId)?;
         let is_valid = cob_id.is_valid() && self.check_server(SubIndex(sub_index), cob_id).is_ok();
         is_valid.then(|| cob_id.can_id())
     }
@@ -181,7 +197,7 @@ impl Context<'_> {
         }
         // The identifiers of other nodes' default SDOs are what further channels are made of, although 7.3.5 restricts them.
         let is_default_sdo = matches!(cob_id.can_id().raw(), 0x581..=0x5FF | 0x601..=0x67F);
-        self.check_cob_id(if is_default_sdo { CobId(cob_id.0 | CobId::BIT_31) } else { cob_id })
+        self.node.check_cob_id(if is_default_sdo { CobId(cob_id.0 | CobId::BIT_31) } else { cob_id })
     }
 
     /// A parameter of a server is about to be written. A valid identifier has to be made invalid before it can change.
@@ -202,8 +218,14 @@ impl Context<'_> {
 
     /// A frame for a server.
     pub(crate) fn sdo_request(&mut self, number: usize, frame: &Frame) {
-        let (true, Some(request)) = (self.is_communicating(), frame.eight()) else { return };
-        let Some(mut session) = self.servers.get(number).map(|server| server.session) else { return };
+        let (true, Some(request)) = (self.node.is_communicating(), frame.eight()) else { return };
+        let Some(server) = self.node.servers.get(number) else { return };
+        if server.held.is_running() {
+            return;
+        }
+        let mut session = server.session;
+        // What another call has left is not about this request.
+        self.node.core.answer_delay = Microseconds(0);
         let step = self.answer_request(number, &mut session, &request);
         self.settle(number, session, step);
     }
@@ -234,7 +256,7 @@ impl Context<'_> {
             _ => {
                 self.break_off(session);
                 session.transfer = Transfer::None;
-                (session.item.index, session.item.sub_index) = place_of(request);
+                (session.item.entry.index, session.item.entry.sub_index) = place_of(request);
                 self.begin_transfer(number, session, request)
             }
         }
@@ -243,7 +265,7 @@ impl Context<'_> {
     /// A request that does not belong to a running transfer: it begins one, and ends the one that runs without a word.
     fn begin_transfer(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
         let [command, ..] = *request;
-        let has_blocks = self.core.settings.has_block_transfer;
+        let has_blocks = self.node.core.settings.has_block_transfer;
         match command & COMMAND {
             0x20 => self.begin_download(number, session, request),
             0x40 => self.begin_upload(number, session),
@@ -257,53 +279,55 @@ impl Context<'_> {
     fn settle(&mut self, number: usize, mut session: Session, step: Step) {
         if let Err(code) = step {
             self.break_off(&session);
-            let Item { index, sub_index, .. } = session.item;
+            let Entry { index, sub_index, .. } = session.item.entry;
             let code = self.app.abort_code(code, index, sub_index);
             self.answer_about(number, ABORT, &session.item, code.0.to_le_bytes());
         }
+        let Some(server) = self.node.servers.get_mut(number) else { return };
         if step == Ok(Next::Request) {
-            session.time_out = Timer::after(self.now, TIME_OUT);
-        } else {
-            session = Session::NONE;
-        }
-        if let Some(server) = self.servers.get_mut(number) {
+            session.time_out = Timer::after(self.node.now, TIME_OUT);
             server.session = session;
+        } else {
+            server.session.end();
         }
     }
 
     /// Sends a response, as soon as the queue has room. One that a client no longer waits for, having asked again, is lost.
     fn respond(&mut self, number: usize, data: Request) {
-        let Some(server) = self.servers.get_mut(number) else { return };
+        let Some(server) = self.node.servers.get_mut(number) else { return };
         if server.response.replace(data).is_some() {
-            self.core.queue.note_loss();
+            self.node.core.queue.note_loss();
         }
+        server.held = Timer::after(self.node.now, core::mem::take(&mut self.node.core.answer_delay));
         self.send_response(number);
     }
 
     fn send_response(&mut self, number: usize) {
-        let Some(server) = self.servers.get_mut(number) else { return };
-        if self.core.queue.room() == 0 {
+        let Some(server) = self.node.servers.get_mut(number) else { return };
+        if self.node.core.queue.room() == 0 || server.held.is_running() && !server.held.is_due(self.node.now)
+        {
             return;
         }
+        server.held = Timer::OFF;
         if let (Some(data), Some((_, can_id))) = (server.response.take(), server.can_ids) {
-            self.core.queue.send(can_id, &data);
+            self.node.core.queue.send(can_id, &data);
         }
     }
 
     /// Answers with a message that names the value and holds four more bytes.
     #[inline(never)]
     fn answer_about(&mut self, number: usize, command: u8, item: &Item, data: [u8; 4]) {
-        let [low, high] = item.index.0.to_le_bytes();
+        let [low, high] = item.entry.index.0.to_le_bytes();
         let [a, b, c, d] = data;
-        self.respond(number, [command, low, high, item.sub_index.0, a, b, c, d]);
+        self.respond(number, [command, low, high, item.entry.sub_index.0, a, b, c, d]);
     }
 
     /// Sends what is left of responses and blocks, and ends transfers whose client is silent.
     pub(crate) fn poll_servers(&mut self) {
-        for number in 0..self.servers.len() {
+        for number in 0..self.node.servers.len() {
             self.send_response(number);
-            let Some(server) = self.servers.get(number) else { continue };
-            let is_late = server.session.time_out.is_due(self.now);
+            let Some(server) = self.node.servers.get(number) else { continue };
+            let is_late = server.session.time_out.is_due(self.node.now);
             if !is_late && !server.session.is_sending() {
                 continue;
             }
@@ -318,23 +342,24 @@ impl Context<'_> {
 
     /// All transfers end without a word: the node stops, or is reset.
     pub(crate) fn end_transfers(&mut self) {
-        for number in 0..self.servers.len() {
+        for number in 0..self.node.servers.len() {
             self.end_transfer(number);
         }
     }
 
     fn end_transfer(&mut self, number: usize) {
-        let Some(server) = self.servers.get_mut(number) else { return };
+        let Some(server) = self.node.servers.get_mut(number) else { return };
         let session = core::mem::replace(&mut server.session, Session::NONE);
         server.response = None;
+        server.held = Timer::OFF;
         self.break_off(&session);
     }
 
     /// A transfer ends before its time: the application is told where it has got a part of a DOMAIN.
     fn break_off(&mut self, session: &Session) {
         let is_download = matches!(session.transfer, Transfer::Download { .. } | Transfer::BlockDownload(_));
-        if is_download && let Some(entry) = self.domain_of(&session.item) {
-            self.app.domain_broken_off(&mut self.objects, entry, session.item.offset);
+        if is_download && session.item.is_domain() {
+            self.app.domain_broken_off(&mut self.node, &session.item.entry, session.item.offset);
         }
     }
 }

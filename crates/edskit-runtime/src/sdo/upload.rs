@@ -1,9 +1,11 @@
 //! Uploads: the client reads, expedited or in segments.
 
 use super::{EXPEDITED, Item, Next, SEGMENT, Session, Step, TOGGLE, Transfer};
+use crate::Application;
 use crate::context::Context;
+use edskit_types::AbortCode;
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_upload(&mut self, number: usize, session: &mut Session) -> Step {
         self.open_source(number, &mut session.item)?;
         self.begin_upload_of(number, session)
@@ -11,7 +13,7 @@ impl Context<'_> {
 
     /// Answers with the value, or with its length and segments to come.
     pub(super) fn begin_upload_of(&mut self, number: usize, session: &mut Session) -> Step {
-        let item = &session.item;
+        let item = &mut session.item;
         let mut data = [0; EXPEDITED];
         if let Some(length) = item.length
             && let Some(place) = data.get_mut(..length as usize).filter(|place| !place.is_empty())
@@ -21,6 +23,10 @@ impl Context<'_> {
             self.answer_about(number, command, item, data);
             return Ok(Next::End);
         }
+        if !self.node.core.settings.has_segmented_transfer {
+            return Err(AbortCode::UNKNOWN_COMMAND);
+        }
+        self.hold_source(number, item);
         let command = 0x40 | u8::from(item.length.is_some());
         self.answer_about(number, command, item, item.length.unwrap_or(0).to_le_bytes());
         session.transfer = Transfer::Upload { toggle: 0 };

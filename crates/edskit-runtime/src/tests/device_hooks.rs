@@ -2,7 +2,7 @@
 
 use super::device::{COB_ID, RO, RW, plain, with_values};
 use super::{Bench, NODE, frame};
-use crate::{Application, Entry, Flags, Instant, Microseconds, NoStorage, Objects, Settings};
+use crate::{Application, Entry, Flags, Instant, Microseconds, NoStorage, Services, Settings};
 use edskit_types::{AbortCode, Index, NmtState, NodeId};
 use std::boxed::Box;
 use std::cell::Cell;
@@ -12,8 +12,8 @@ use std::rc::Rc;
 struct Slow(Rc<Cell<bool>>);
 
 impl Application for Slow {
-    fn is_ready(&mut self, objects: &mut Objects<'_>) -> bool {
-        objects.set_value(Index(0x2005), 0, 77_u16);
+    fn is_ready(&mut self, node: &mut Services<'_>) -> bool {
+        node.objects.set_value(Index(0x2005), 0, 77_u16);
         self.0.get()
     }
 }
@@ -72,17 +72,17 @@ impl Application for Coarse {
 
     fn check_write(
         &mut self,
-        objects: &Objects<'_>,
+        node: &Services<'_>,
         entry: &Entry,
         length: Option<usize>,
     ) -> Result<(), AbortCode> {
         if length.is_some_and(|length| length != usize::from(entry.size)) {
             return Err(AbortCode::LENGTH_MISMATCH);
         }
-        objects.check_write(entry, length)
+        node.objects.check_write(entry, length)
     }
 
-    fn is_present(&mut self, _: &Objects<'_>, entry: &Entry) -> bool {
+    fn is_present(&mut self, _: &Services<'_>, entry: &Entry) -> bool {
         entry.index == Index(0x3000) && entry.sub_index.0 == 1
     }
 }
@@ -111,7 +111,7 @@ fn timers_can_be_coarser() {
 fn a_tpdo_can_wait_for_its_own_event() {
     let mut bench = coarse();
     assert_eq!(bench.nmt(1), [frame(0x285, &[0x34, 0x12])]);
-    bench.node.trigger_tpdo(bench.now, 1);
+    bench.node.services(bench.now).trigger(1);
     assert_eq!(bench.poll(), [frame(0x185, &[0x34, 0x12])]);
 }
 

@@ -2,7 +2,7 @@
 
 use super::device::{RW, with_values};
 use super::{Bench, frame};
-use crate::{Application, Crc, Entry, Flags, NoStorage, Objects};
+use crate::{Application, Crc, Entry, Flags, NoStorage, Services};
 use edskit_types::{AbortCode, DataType};
 use std::boxed::Box;
 use std::cell::RefCell;
@@ -21,13 +21,13 @@ struct File {
 struct Shelf(Rc<RefCell<File>>);
 
 impl Application for Shelf {
-    fn domain_length(&mut self, _: &mut Objects<'_>, _: &Entry) -> Result<Option<u32>, AbortCode> {
+    fn domain_length(&mut self, _: &mut Services<'_>, _: &Entry) -> Result<Option<u32>, AbortCode> {
         Ok(Some(self.0.borrow().content.len() as u32))
     }
 
     fn read_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         _: &Entry,
         offset: u32,
         buffer: &mut [u8],
@@ -42,7 +42,7 @@ impl Application for Shelf {
 
     fn write_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         _: &Entry,
         offset: u32,
         data: &[u8],
@@ -54,7 +54,7 @@ impl Application for Shelf {
         Ok(())
     }
 
-    fn domain_broken_off(&mut self, _: &mut Objects<'_>, entry: &Entry, offset: u32) {
+    fn domain_broken_off(&mut self, _: &mut Services<'_>, entry: &Entry, offset: u32) {
         assert_eq!(entry.data_type, DataType::Domain);
         self.0.borrow_mut().broken.push(offset);
     }

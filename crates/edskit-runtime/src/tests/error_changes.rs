@@ -2,7 +2,7 @@
 
 use super::device::{Builder, COB_ID, RW, with_values};
 use super::{Bench, frame};
-use crate::{Application, Entry, Flags, Frame, NoStorage, NotSent, Objects, Settings};
+use crate::{Application, Entry, Flags, Frame, NoStorage, NotSent, Services, Settings};
 use edskit_types::{AbortCode, CanId, Index, NodeId};
 use std::boxed::Box;
 use std::cell::RefCell;
@@ -280,12 +280,12 @@ fn plain_with_history() -> Builder {
 struct Picky(Rc<RefCell<Vec<(u16, u16, u32)>>>);
 
 impl Application for Picky {
-    fn before_write(&mut self, _: &mut Objects<'_>, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+    fn before_write(&mut self, _: &mut Services<'_>, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         let is_refused = entry.index == Index(0x2000) && data == [7, 0];
         if is_refused { Err(AbortCode(0x0800_0021)) } else { Ok(()) }
     }
 
-    fn rpdo_value_refused(&mut self, _: &mut Objects<'_>, number: u16, entry: &Entry, code: AbortCode) {
+    fn rpdo_value_refused(&mut self, _: &mut Services<'_>, number: u16, entry: &Entry, code: AbortCode) {
         self.0.borrow_mut().push((number, entry.index.0, code.0));
     }
 }

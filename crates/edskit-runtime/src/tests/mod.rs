@@ -6,6 +6,8 @@ mod domains;
 mod emergencies;
 mod error_changes;
 mod error_control;
+mod given;
+mod hooks;
 mod hostile;
 mod lss;
 mod nmt;

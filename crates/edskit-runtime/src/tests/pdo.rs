@@ -1,6 +1,6 @@
 use super::device::{Builder, COB_ID, RO, RW, with_values};
 use super::{Bench, frame};
-use crate::{Application, Frame, Instant, NotSent, Objects};
+use crate::{Application, Frame, Instant, NotSent, Services};
 use edskit_types::{CanId, Index, NmtState};
 use std::boxed::Box;
 use std::vec::Vec;
@@ -52,7 +52,7 @@ fn an_acyclic_tpdo_needs_an_event_and_a_sync() {
     let mut bench = bench(0);
     assert_eq!(sync(&mut bench).len(), 1, "starting is an event");
     assert!(sync(&mut bench).is_empty());
-    bench.node.trigger_tpdo(bench.now, 1);
+    bench.node.services(bench.now).trigger(1);
     assert!(bench.poll().is_empty());
     assert_eq!(sync(&mut bench).len(), 1);
 }
@@ -62,7 +62,7 @@ fn events_timer_and_inhibit_time() {
     let mut bench = bench(255);
     bench.poll();
     assert!(bench.pass(5000).is_empty());
-    bench.node.trigger_tpdo(bench.now, 1);
+    bench.node.services(bench.now).trigger(1);
     assert_eq!(bench.poll(), [frame(0x185, &CONTENT)]);
     bench.write(TPDO, 5, &[100, 0]).unwrap();
     let times: Vec<u64> = bench.pass(350).iter().map(|(time, _)| *time).collect();
@@ -83,9 +83,9 @@ fn a_changed_value_is_an_event_of_the_pdos_that_carry_it() {
     let position =
         |bench: &mut Bench, index| bench.node.objects().table().find(Index(index), edskit_types::SubIndex(0));
     let (mapped, other) = (position(&mut bench, 0x2001).unwrap(), position(&mut bench, 0x2002).unwrap());
-    bench.node.value_changed(bench.now, other);
+    bench.node.services(bench.now).changed(other);
     assert!(bench.poll().is_empty());
-    bench.node.value_changed(bench.now, mapped);
+    bench.node.services(bench.now).changed(mapped);
     assert_eq!(bench.poll().len(), 1);
 }
 
@@ -270,13 +270,13 @@ fn a_reset_brings_the_configuration_back() {
 struct Doubling;
 
 impl Application for Doubling {
-    fn tpdo_due(&mut self, objects: &mut Objects<'_>, _: u16) {
-        objects.set_value(Index(0x2001), 0, 10_u8);
+    fn tpdo_due(&mut self, node: &mut Services<'_>, _: u16) {
+        node.objects.set_value(Index(0x2001), 0, 10_u8);
     }
 
-    fn rpdo_received(&mut self, objects: &mut Objects<'_>, _: u16) {
-        let value: u16 = objects.value(Index(0x2000), 0).unwrap();
-        objects.set_value(Index(0x2000), 0, 2 * value);
+    fn rpdo_received(&mut self, node: &mut Services<'_>, _: u16) {
+        let value: u16 = node.objects.value(Index(0x2000), 0).unwrap();
+        node.objects.set_value(Index(0x2000), 0, 2 * value);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::device::{Builder, COB_ID, RW, with_values};
 use super::{Bench, frame};
-use crate::{Application, Entry, Frame, Instant, NoStorage, NotSent, Objects, Position};
+use crate::{Application, Entry, Frame, Instant, NoStorage, NotSent, Position, Services};
 use edskit_types::{CanId, Index, SubIndex};
 use std::boxed::Box;
 use std::vec::Vec;
@@ -293,7 +293,7 @@ fn an_event_stays_one_in_types_that_have_events_only() {
         invalid(&mut bench, TPDO);
         set(&mut bench, TPDO, 3, &10_000_u16.to_le_bytes());
         valid(&mut bench, TPDO);
-        bench.node.trigger_tpdo(bench.now, 1);
+        bench.node.services(bench.now).trigger(1);
         assert_eq!(bench.poll(), [], "the inhibit time runs");
         set(&mut bench, TPDO, 2, &[through]);
         assert_eq!(bench.pass(500), []);
@@ -302,7 +302,7 @@ fn an_event_stays_one_in_types_that_have_events_only() {
     }
     // An event of a type that has none is none.
     let mut bench = bench(1);
-    bench.node.trigger_tpdo(bench.now, 1);
+    bench.node.services(bench.now).trigger(1);
     set(&mut bench, TPDO, 2, &[255]);
     assert_eq!(bench.pass(100), []);
 }
@@ -356,7 +356,7 @@ fn the_device_changes_a_parameter_itself() {
         let mut objects = bench.node.objects();
         objects.set_value(Index(index), sub_index, value);
         let position = objects.table().find(Index(index), SubIndex(sub_index)).unwrap();
-        bench.node.parameter_changed(bench.now, position, &mut *bench.app);
+        bench.node.services(bench.now).update(position);
     };
     change(&mut bench, TPDO, 5, 100);
     assert_eq!(times(&bench.pass(200)), [100_000, 200_000]);
@@ -377,7 +377,7 @@ fn the_device_changes_a_parameter_itself() {
 struct Eventful;
 
 impl Application for Eventful {
-    fn write_is_event(&mut self, _: &Objects<'_>, _: &Entry) -> bool {
+    fn write_is_event(&mut self, _: &Services<'_>, _: &Entry) -> bool {
         true
     }
 }
@@ -420,10 +420,10 @@ fn a_changed_value_finds_its_tpdos() {
     bench.nmt(1);
     for number in 0..40_u16 {
         let found = bench.node.objects().table().find(Index(0x2100 + number), SubIndex(0)).unwrap();
-        bench.node.value_changed(bench.now, found);
+        bench.node.services(bench.now).changed(found);
         let sent: Vec<u32> = bench.poll().iter().map(|frame| frame.can_id().raw()).collect();
         assert_eq!(sent, [0x300 + u32::from(number) / 8]);
     }
-    bench.node.value_changed(Instant(0), Position(0));
+    bench.node.services(Instant(0)).changed(Position(0));
     assert_eq!(bench.poll(), []);
 }

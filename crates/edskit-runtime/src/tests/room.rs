@@ -2,7 +2,7 @@
 
 use super::device::{Builder, COB_ID, RO, RW, with_values};
 use super::{Bench, frame};
-use crate::{Error, Flags, Frame, NoApplication};
+use crate::{EmcyError, Flags, Frame};
 use edskit_types::{CanId, Index, SubIndex};
 use std::vec::Vec;
 
@@ -60,7 +60,7 @@ fn every_synchronous_tpdo_follows_its_sync_once() {
             let mut bench = with_tpdos(count, transmission);
             for round in 0..3 {
                 if transmission == 0 {
-                    (1..=count).for_each(|number| bench.node.trigger_tpdo(bench.now, number));
+                    (1..=count).for_each(|number| bench.node.services(bench.now).trigger(number));
                 }
                 bench.node.receive(bench.now, &frame(0x80, &[]), &mut *bench.app);
                 let expected: Vec<u32> = (0..count).map(|number| 0x205 + u32::from(number)).collect();
@@ -111,7 +111,7 @@ fn no_event_and_no_request_starves() {
     let mut bench = with_tpdos(40, 255);
     let mut counts = [0; 40];
     for _ in 0..20 {
-        (1..=40).for_each(|number| bench.node.trigger_tpdo(bench.now, number));
+        (1..=40).for_each(|number| bench.node.services(bench.now).trigger(number));
         bench.node.poll(bench.now, &mut *bench.app);
         // The bus takes ten frames until every value has changed again.
         for sent in core::iter::from_fn(|| bench.node.transmit()).take(10) {
@@ -136,7 +136,7 @@ fn no_event_and_no_request_starves() {
 /// Fills the queue with TPDOs that wait for the bus.
 fn full() -> Bench {
     let mut bench = with_tpdos(16, 255);
-    (1..=16).for_each(|number| bench.node.trigger_tpdo(bench.now, number));
+    (1..=16).for_each(|number| bench.node.services(bench.now).trigger(number));
     bench.node.poll(bench.now, &mut *bench.app);
     bench
 }
@@ -165,7 +165,8 @@ fn other_services_wait_for_room_too() {
     objects.set_value(Index(0x1006), 0, 1000_u32);
     objects.set_value(Index(0x1005), 0, 0x4000_0080_u32);
     let position = objects.table().find(Index(0x1005), SubIndex(0)).unwrap();
-    bench.node.parameter_changed(bench.now, position, &mut *bench.app);
+    bench.node.services(bench.now).update(position);
+    bench.node.poll(bench.now, &mut *bench.app);
     bench.now.0 += 1000;
     bench.node.poll(bench.now, &mut *bench.app);
     assert_eq!(identifiers(&drained(&mut bench, 16)).iter().filter(|can_id| **can_id == 0x80).count(), 1);
@@ -211,10 +212,10 @@ fn the_device_has_room_for_its_own_errors_whatever_the_services_find() {
     bench.nmt(1);
     monitors(&mut bench, 40);
     bench.pass(400);
-    let error = |number: u16| Error { code: 0x4200 + number, register: 8 };
+    let error = |number: u16| EmcyError { code: 0x4200 + number, register: 8 };
     for number in 0..32 {
-        bench.node.raise(bench.now, error(number), number, [0; 5], &mut NoApplication);
-        bench.node.raise(bench.now, error(number), number, [0; 5], &mut NoApplication);
+        bench.node.services(bench.now).raise(error(number), number, [0; 5]);
+        bench.node.services(bench.now).raise(error(number), number, [0; 5]);
     }
     drained(&mut bench, 16);
     assert_eq!(bench.read(0x1001, 0), Ok([0x19].into()));
@@ -222,7 +223,7 @@ fn the_device_has_room_for_its_own_errors_whatever_the_services_find() {
     assert_eq!(bench.read(0x1001, 0), Ok([0x09].into()));
     for number in (0..32).rev() {
         assert_eq!(bench.read(0x1001, 0), Ok([0x09].into()));
-        bench.node.clear(bench.now, error(number), number, &mut NoApplication);
+        bench.node.services(bench.now).clear(error(number), number);
     }
     assert_eq!(bench.read(0x1001, 0), Ok([0].into()));
 }
@@ -256,13 +257,13 @@ fn the_last_message_tells_what_is() {
 
 #[test]
 fn what_happens_while_there_is_no_emcy_is_told_when_there_is_one() {
-    let hot = Error { code: 0x4210, register: 8 };
+    let hot = EmcyError { code: 0x4210, register: 8 };
     for (raises, register) in [(1, 9), (2, 0)] {
         let mut bench = Bench::new(device().build());
         bench.write(0x1014, 0, &[0x85, 0, 0, 0x80]).unwrap();
-        bench.node.raise(bench.now, hot, 0, [0; 5], &mut NoApplication);
+        bench.node.services(bench.now).raise(hot, 0, [0; 5]);
         if raises == 2 {
-            bench.node.clear(bench.now, hot, 0, &mut NoApplication);
+            bench.node.services(bench.now).clear(hot, 0);
         }
         assert_eq!(bench.pass(100), []);
         let sent = bench.ask(0x605, &[0x23, 0x14, 0x10, 0, 0x99, 0, 0, 0]);
@@ -273,12 +274,12 @@ fn what_happens_while_there_is_no_emcy_is_told_when_there_is_one() {
 
 #[test]
 fn the_inhibit_time_of_emcy_follows_its_parameter() {
-    let hot = Error { code: 0x4210, register: 8 };
+    let hot = EmcyError { code: 0x4210, register: 8 };
     for (time, expected) in [(0_u16, 0), (1000, 50_000), (5000, 450_000)] {
         let mut bench = Bench::new(device().build());
         bench.write(0x1015, 0, &30_000_u16.to_le_bytes()).unwrap();
-        bench.node.raise(bench.now, hot, 0, [0; 5], &mut NoApplication);
-        bench.node.clear(bench.now, hot, 0, &mut NoApplication);
+        bench.node.services(bench.now).raise(hot, 0, [0; 5]);
+        bench.node.services(bench.now).clear(hot, 0);
         assert_eq!(bench.poll().len(), 1);
         bench.pass(50);
         let request = [0x2B, 0x15, 0x10, 0, time.to_le_bytes()[0], time.to_le_bytes()[1], 0, 0];

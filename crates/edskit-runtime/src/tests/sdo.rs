@@ -1,6 +1,6 @@
 use super::device::{RW, with_values};
 use super::{Bench, frame};
-use crate::{Application, Entry, Flags, Objects};
+use crate::{Application, Entry, Flags, Services};
 use edskit_types::{AbortCode, Index, SubIndex};
 use std::boxed::Box;
 use std::vec::Vec;
@@ -117,11 +117,11 @@ fn a_second_server_has_its_own_identifiers() {
 struct Particular(Vec<u8>);
 
 impl Application for Particular {
-    fn before_write(&mut self, _: &mut Objects<'_>, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+    fn before_write(&mut self, _: &mut Services<'_>, entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
         if entry.index == Index(0x2000) && data == [0, 0] { Err(AbortCode::LOCAL_CONTROL) } else { Ok(()) }
     }
 
-    fn is_present(&mut self, _: &Objects<'_>, _: &Entry) -> bool {
+    fn is_present(&mut self, _: &Services<'_>, _: &Entry) -> bool {
         false
     }
 
@@ -129,13 +129,13 @@ impl Application for Particular {
         if index == Index(0x1000) { AbortCode::UNSUPPORTED_ACCESS } else { code }
     }
 
-    fn domain_length(&mut self, _: &mut Objects<'_>, _: &Entry) -> Result<Option<u32>, AbortCode> {
+    fn domain_length(&mut self, _: &mut Services<'_>, _: &Entry) -> Result<Option<u32>, AbortCode> {
         Ok(None)
     }
 
     fn read_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         _: &Entry,
         offset: u32,
         buffer: &mut [u8],
@@ -148,7 +148,7 @@ impl Application for Particular {
 
     fn write_domain(
         &mut self,
-        _: &mut Objects<'_>,
+        _: &mut Services<'_>,
         _: &Entry,
         offset: u32,
         data: &[u8],

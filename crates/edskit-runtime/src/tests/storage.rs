@@ -1,6 +1,6 @@
 use super::device::{COB_ID, RW, with_values};
 use super::{Bench, frame};
-use crate::{Application, NoApplication, NoStorage, Objects, Record, Storage, StorageError, StorageGroup};
+use crate::{Application, NoApplication, NoStorage, Record, Services, Storage, StorageError, StorageGroup};
 use edskit_types::{DataType, Index, SubIndex};
 use std::boxed::Box;
 use std::cell::RefCell;
@@ -76,7 +76,7 @@ fn bench(storage: impl Storage + 'static) -> Bench {
 
 impl Bench {
     /// A node whose boot-up may be followed by an emergency.
-    fn with_storage(device: super::Device, storage: Box<dyn Storage>) -> Self {
+    pub(super) fn with_storage(device: super::Device, storage: Box<dyn Storage>) -> Self {
         let settings = crate::Settings { node_id: edskit_types::NodeId::new(5).ok(), ..Default::default() };
         let mut bench = Self::off(device, settings, storage);
         bench.app = Box::new(NoApplication);
@@ -176,7 +176,7 @@ fn revision(
 struct Dropped(Rc<RefCell<Vec<u16>>>);
 
 impl Application for Dropped {
-    fn stored_value_dropped(&mut self, _: &mut Objects<'_>, index: Index, _: SubIndex) {
+    fn stored_value_dropped(&mut self, _: &mut Services<'_>, index: Index, _: SubIndex) {
         self.0.borrow_mut().push(index.0);
     }
 }

@@ -1,6 +1,6 @@
 use super::device::{Builder, COB_ID, RW, plain};
 use super::{Bench, frame};
-use crate::{Application, Objects, TimeOfDay};
+use crate::{Application, Services, TimeOfDay};
 use std::boxed::Box;
 use std::cell::Cell;
 use std::rc::Rc;
@@ -67,7 +67,7 @@ fn a_wrong_length_is_an_error() {
 struct Clock(Rc<Cell<Option<TimeOfDay>>>);
 
 impl Application for Clock {
-    fn time_received(&mut self, _: &mut Objects<'_>, time: TimeOfDay) {
+    fn time_received(&mut self, _: &mut Services<'_>, time: TimeOfDay) {
         self.0.set(Some(time));
     }
 }

@@ -102,7 +102,7 @@ impl<G: Governor, S: Storage> Gateway<G, S> {
             }
         }
         for number in due.into_iter().take(count) {
-            self.node.trigger_tpdo(now, number.into());
+            self.node.services(now).trigger(number.into());
         }
     }
 }
