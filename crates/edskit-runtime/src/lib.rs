@@ -78,6 +78,20 @@
 #![no_std]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+// Where a service is off, nobody uses what only it has used.
+#![cfg_attr(
+    not(all(
+        feature = "block-transfer",
+        feature = "guarding",
+        feature = "heartbeat-consumer",
+        feature = "lss",
+        feature = "rtr",
+        feature = "storage",
+        feature = "sync",
+        feature = "time"
+    )),
+    allow(dead_code)
+)]
 
 #[cfg(test)]
 extern crate std;
@@ -85,6 +99,7 @@ extern crate std;
 mod access;
 mod application;
 mod bus_state;
+mod commissioning;
 mod context;
 mod crc;
 mod device;
@@ -92,24 +107,33 @@ mod dictionary;
 mod emcy;
 mod error_behaviour;
 mod frame;
+#[cfg_attr(not(feature = "guarding"), path = "off/guarding.rs")]
 mod guarding;
 mod heartbeat;
+#[cfg_attr(not(feature = "heartbeat-consumer"), path = "off/heartbeat_consumer.rs")]
+mod heartbeat_consumer;
 mod led;
+#[cfg_attr(not(feature = "lss"), path = "off/lss.rs")]
 mod lss;
 mod nmt;
 mod node;
 mod pdo;
 mod queue;
+mod records;
 mod ring;
 mod sdo;
 mod services;
+#[cfg_attr(not(feature = "storage"), path = "off/storage.rs")]
 mod storage;
+#[cfg_attr(not(feature = "sync"), path = "off/sync.rs")]
 mod sync;
 mod time;
+#[cfg_attr(not(feature = "time"), path = "off/time_stamp.rs")]
 mod time_stamp;
 
 pub use application::{Application, NoApplication, Reset, TimeOfDay};
 pub use bus_state::BusState;
+pub use commissioning::{Commissioning, LssAnswer, LssRequest};
 pub use crc::Crc;
 pub use device::{Device, NodeDevice};
 pub use dictionary::{
@@ -117,14 +141,13 @@ pub use dictionary::{
 };
 pub use emcy::{Emergency, Error};
 pub use frame::{Frame, MOST_DATA};
-pub use heartbeat::HeartbeatConsumer;
+pub use heartbeat_consumer::HeartbeatConsumer;
 pub use led::{Leds, Pattern};
-pub use lss::{Commissioning, LssAnswer, LssRequest};
 pub use node::{Node, Settings};
 pub use pdo::{Mapped, NotSent, PdoPolicy, Remapping, Rpdo, Tpdo};
+pub use records::{NoStorage, Record, Storage, StorageError};
 pub use sdo::SdoServer;
 pub use services::Services;
-pub use storage::{NoStorage, Record, Storage, StorageError};
 pub use time::{Instant, Microseconds};
 
 /// The words of CANopen, for generated code.

@@ -1,6 +1,8 @@
 //! SDO server: expedited, segmented and block transfer (CiA 301 v4.2, 7.2.4).
 
+#[cfg_attr(not(feature = "block-transfer"), path = "../off/block_download.rs")]
 mod block_download;
+#[cfg_attr(not(feature = "block-transfer"), path = "../off/block_upload.rs")]
 mod block_upload;
 mod download;
 mod item;
