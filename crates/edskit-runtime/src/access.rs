@@ -5,6 +5,7 @@
 //! RPDOs, of stored values, and by each service of what it finds in the dictionary; and whether it can have it now
 //! ([`Context::check_change`]). What follows from a value that is there is one function of each service.
 
+use crate::Application;
 use crate::Value;
 use crate::context::Context;
 use crate::dictionary::{Entry, Position};
@@ -20,7 +21,7 @@ const SAVE: [u8; 4] = *b"save";
 /// "load", as 1011h wants it.
 const LOAD: [u8; 4] = *b"load";
 
-impl<'a> Context<'a> {
+impl<'a, A: Application + ?Sized> Context<'a, A> {
     /// The entry at a place, in the dictionary or with the device, and where it is.
     pub(crate) fn open(&mut self, index: Index, sub_index: SubIndex) -> Result<(Position, Entry), AbortCode> {
         let table = self.node.objects.table;

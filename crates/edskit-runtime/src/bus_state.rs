@@ -1,5 +1,6 @@
 //! What the CAN controller tells of the bus.
 
+use crate::Application;
 use crate::Error;
 use crate::context::Context;
 
@@ -16,7 +17,7 @@ pub enum BusState {
     Off,
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// The CAN controller is in this state.
     pub(crate) fn bus_found(&mut self, state: BusState) {
         let was = core::mem::replace(&mut self.node.core.bus_state, state);

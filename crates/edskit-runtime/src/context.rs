@@ -50,12 +50,12 @@ pub(crate) struct Core {
 }
 
 /// One call of the node: what the device is given with each of its calls, and the device.
-pub(crate) struct Context<'a> {
+pub(crate) struct Context<'a, A: ?Sized> {
     pub(crate) node: Services<'a>,
-    pub(crate) app: &'a mut dyn Application,
+    pub(crate) app: &'a mut A,
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes a frame from the bus.
     pub(crate) fn receive(&mut self, frame: &Frame) {
         let can_id = frame.can_id();

@@ -3,6 +3,7 @@
 //! What the services of the node find they know themselves: a heartbeat consumer whether its node is missing, an RPDO
 //! whether it is late. Here they are only counted, so there is room for all of them. What the device raises is listed.
 
+use crate::Application;
 use crate::context::Context;
 use crate::ring::Ring;
 use crate::services::Services;
@@ -253,7 +254,7 @@ impl Services<'_> {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// The node itself has found an error that is in its list, as it is not one of a service.
     pub(crate) fn raise(&mut self, error: Error, source: u16, info: [u8; 5]) {
         if self.app.counts(error) && self.node.list(error, source) {

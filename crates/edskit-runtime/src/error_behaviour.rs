@@ -1,5 +1,6 @@
 //! What the node does after a serious error of communication: 1029h (CiA 301 v4.2, 7.5.2.32).
 
+use crate::Application;
 use crate::Error;
 use crate::context::Context;
 use crate::services::Services;
@@ -39,7 +40,7 @@ impl Services<'_> {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// A heartbeat, the master's guarding, or the bus itself is gone.
     pub(crate) fn react_to_communication_error(&mut self, error: Error) {
         let prescribed = self.node.error_behaviour(COMMUNICATION);

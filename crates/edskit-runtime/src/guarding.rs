@@ -1,5 +1,6 @@
 //! Node guarding and life guarding (CiA 301 v4.2, 7.2.8.3.1).
 
+use crate::Application;
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
@@ -28,7 +29,7 @@ impl Guarding {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// A remote frame with the identifier of a heartbeat. Heartbeat has precedence over guarding, and a device without
     /// 100Ch knows no guarding.
     pub(crate) fn guarding_request(&mut self, can_id: CanId) {

@@ -1,5 +1,6 @@
 //! Heartbeat producer: 1017h (CiA 301 v4.2, 7.2.8.3.2).
 
+use crate::Application;
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
@@ -29,7 +30,7 @@ impl Producer {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn heartbeat_time(&mut self) -> Microseconds {
         let milliseconds: u16 = self.node.objects.value(Index::PRODUCER_HEARTBEAT, 0).unwrap_or_default();
         self.app.heartbeat_time(Microseconds::from_milliseconds(milliseconds.into()))

@@ -1,5 +1,6 @@
 //! Heartbeat consumer: 1016h (CiA 301 v4.2, 7.2.8.3.2).
 
+use crate::Application;
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
@@ -35,7 +36,7 @@ impl HeartbeatConsumer {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes the monitored nodes from 1016h.
     pub(crate) fn configure_consumers(&mut self) {
         self.node.consumers.fill(HeartbeatConsumer::NEW);

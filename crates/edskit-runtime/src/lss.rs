@@ -1,5 +1,6 @@
 //! LSS slave: layer setting services (CiA 305 v2.2).
 
+use crate::Application;
 use crate::commissioning::SOURCE;
 use crate::context::Context;
 use crate::records::{Record, StorageError};
@@ -63,7 +64,7 @@ impl Lss {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// A frame with the identifier 7E5h.
     pub(crate) fn lss_request(&mut self, frame: &Frame) {
         let Some(request) = frame.eight() else { return };

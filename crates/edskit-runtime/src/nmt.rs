@@ -1,5 +1,6 @@
 //! NMT slave: states, commands, initialisation and boot-up (CiA 301 v4.2, 7.2.8 and 7.3.2).
 
+use crate::Application;
 use crate::access::is_communication;
 use crate::commissioning::{Commissioning, SOURCE};
 use crate::context::Context;
@@ -19,7 +20,7 @@ const NO_SELF_START: u32 = 1 << 2;
 /// 1F80h as a whole: a slave that goes to operational by itself.
 const SLAVE_STARTS: u32 = 8;
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// The first initialisation.
     pub(crate) fn power_on(&mut self) {
         self.node.core.has_started = true;

@@ -110,12 +110,17 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
         Self { dictionary, storage, core }
     }
 
-    fn context<'a>(&'a mut self, now: Instant, app: &'a mut dyn Application) -> Context<'a> {
+    fn context<'a, A: Application + ?Sized>(&'a mut self, now: Instant, app: &'a mut A) -> Context<'a, A> {
         Context { node: self.services(now), app }
     }
 
     /// Takes a frame from the bus. Frames before the first [`poll`](Node::poll) are lost, as before power-on.
-    pub fn receive(&mut self, now: Instant, frame: &impl embedded_can::Frame, app: &mut dyn Application) {
+    pub fn receive(
+        &mut self,
+        now: Instant,
+        frame: &impl embedded_can::Frame,
+        app: &mut (impl Application + ?Sized),
+    ) {
         if self.core.has_started && !self.core.is_held {
             let mut context = self.context(now, app);
             context.receive(&Frame::of(frame));
@@ -124,7 +129,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     }
 
     /// Does what is due: boots up, sends heartbeats and PDOs, ends transfers whose client is silent, and so on.
-    pub fn poll(&mut self, now: Instant, app: &mut dyn Application) {
+    pub fn poll(&mut self, now: Instant, app: &mut (impl Application + ?Sized)) {
         self.context(now, app).poll();
     }
 
@@ -155,20 +160,20 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     }
 
     /// Resets the node, as the NMT master could.
-    pub fn reset(&mut self, now: Instant, reset: Reset, app: &mut dyn Application) {
+    pub fn reset(&mut self, now: Instant, reset: Reset, app: &mut (impl Application + ?Sized)) {
         self.context(now, app).initialise(reset);
     }
 
     /// Leads the node to another state, as the NMT master could. Nothing happens while it is initialising, and
     /// [`NmtState::Initialising`] cannot be entered in this way: see [`reset`](Node::reset).
-    pub fn enter(&mut self, now: Instant, state: NmtState, app: &mut dyn Application) {
+    pub fn enter(&mut self, now: Instant, state: NmtState, app: &mut (impl Application + ?Sized)) {
         self.context(now, app).enter(state);
     }
 
     /// The CAN controller is in another state. Error passive is told by EMCY 8120h while it lasts, and a recovery from bus-off
     /// by 8140h; bus-off is a communication error to which the node reacts as 1029h says
     /// ([`Application::reaction`]). The red indicator shows each.
-    pub fn bus_state(&mut self, now: Instant, state: BusState, app: &mut dyn Application) {
+    pub fn bus_state(&mut self, now: Instant, state: BusState, app: &mut (impl Application + ?Sized)) {
         let mut context = self.context(now, app);
         context.bus_found(state);
         context.do_requests();
@@ -203,7 +208,11 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     /// Calls `report` with every entry whose present value is one that a client could not write, and with the abort code
     /// that it would get. Wherever such a value comes from, it has no effect: the service that it belongs to does not
     /// exist, or works as if the object did not. Without a node-ID nothing is reported.
-    pub fn refused(&mut self, app: &mut dyn Application, report: &mut dyn FnMut(&Entry, AbortCode)) {
+    pub fn refused(
+        &mut self,
+        app: &mut (impl Application + ?Sized),
+        report: &mut dyn FnMut(&Entry, AbortCode),
+    ) {
         self.context(Instant::default(), app).refused(report);
     }
 

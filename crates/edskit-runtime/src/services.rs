@@ -1,5 +1,6 @@
 //! What a device can do from within its calls.
 
+use crate::Application;
 use crate::access::is_communication;
 use crate::context::{Context, Core};
 use crate::heartbeat_consumer::HeartbeatConsumer;
@@ -151,7 +152,7 @@ impl Services<'_> {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Does what the device has asked for. What it asks for meanwhile waits for the next call.
     pub(crate) fn do_requests(&mut self) {
         if !self.node.core.requests.is_some() {

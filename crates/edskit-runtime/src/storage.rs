@@ -1,5 +1,6 @@
 //! Storing parameters over power-off: 1010h and 1011h.
 
+use crate::Application;
 use crate::access::is_communication;
 use crate::context::Context;
 use crate::crc::Crc;
@@ -78,7 +79,7 @@ impl Services<'_> {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// 1010h is written: saves the groups that the sub-index stands for. Or 1011h is: forgets what is stored of them; the
     /// values change with the next reset. Either way nothing of them is lost any more.
     pub(crate) fn do_command(&mut self, entry: &Entry) -> Result<(), AbortCode> {

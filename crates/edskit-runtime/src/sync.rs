@@ -1,5 +1,6 @@
 //! SYNC: consumer with counter, producer, and the synchronous window (CiA 301 v4.2, 7.2.5).
 
+use crate::Application;
 use crate::context::Context;
 use crate::time::Timer;
 use crate::{Error, Frame, Instant, Microseconds};
@@ -50,7 +51,7 @@ pub(crate) fn check_sync_overflow(value: u8) -> Result<(), AbortCode> {
     if matches!(value, 0 | 2..=240) { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn configure_sync(&mut self) {
         self.node.core.sync = Sync::new();
         self.sync_changed();

@@ -1,12 +1,13 @@
 //! TIME consumer: 1012h (CiA 301 v4.2, 7.2.6).
 
+use crate::Application;
 use crate::context::Context;
 use crate::{Frame, TimeOfDay};
 use edskit_types::{AbortCode, CanId, CobId, Index};
 
 const TIME_COB_ID: Index = Index(0x1012);
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Whether an identifier is that of the TIME message, and the device takes it (bit 31).
     pub(crate) fn is_time(&self, can_id: CanId) -> bool {
         self.time_can_id() == Some(can_id)

@@ -1,6 +1,7 @@
 //! Without block transfer: a client that begins one gets [`AbortCode::UNKNOWN_COMMAND`], and reads in segments instead.
 
 use super::{Item, Request, Session, Step};
+use crate::Application;
 use crate::context::Context;
 use edskit_types::AbortCode;
 
@@ -14,7 +15,7 @@ impl BlockUpload {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_block_upload(&mut self, _: usize, _: &mut Session, _: &Request) -> Step {
         Err(AbortCode::UNKNOWN_COMMAND)
     }

@@ -1,5 +1,6 @@
 //! Without guarding: remote frames with the identifier of the heartbeat get no answer.
 
+use crate::Application;
 use crate::Instant;
 use crate::Value;
 use crate::context::Context;
@@ -19,7 +20,7 @@ impl Guarding {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn guarding_request(&mut self, _: CanId) {}
 
     pub(crate) fn end_guarding(&mut self) {}

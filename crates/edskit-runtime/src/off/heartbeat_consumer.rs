@@ -1,5 +1,6 @@
 //! Without heartbeat consumer: no other node is monitored.
 
+use crate::Application;
 use crate::context::Context;
 use crate::time::Timer;
 use crate::{Frame, Instant};
@@ -19,7 +20,7 @@ impl HeartbeatConsumer {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn configure_consumers(&mut self) {}
 
     /// What 1016h can be set to: what monitors no node.

@@ -1,5 +1,6 @@
 //! Without LSS: its frames are taken by nobody, and the settings or the device say the node-ID.
 
+use crate::Application;
 use crate::context::Context;
 use crate::{Frame, Settings};
 
@@ -22,6 +23,6 @@ impl Lss {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn lss_request(&mut self, _: &Frame) {}
 }

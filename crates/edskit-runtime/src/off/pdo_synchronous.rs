@@ -1,6 +1,7 @@
 //! Without SYNC: synchronous transmission types are reserved, so no PDO has one.
 
 use super::Tpdo;
+use crate::Application;
 use crate::context::Context;
 use edskit_types::Transmission;
 
@@ -24,6 +25,6 @@ impl Tpdo {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn lose_late(&mut self, _: usize) {}
 }

@@ -1,5 +1,6 @@
 //! Without storing: 1010h answers that nothing is saved, and 1011h has nothing to forget.
 
+use crate::Application;
 use crate::context::Context;
 use crate::records::{Record, StorageError};
 use crate::services::Services;
@@ -24,7 +25,7 @@ impl Services<'_> {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// 1010h or 1011h is written. The device may store the values itself.
     pub(crate) fn do_command(&mut self, entry: &Entry) -> Result<(), AbortCode> {
         let is_left = self.app.storage_command(&mut self.node, entry)?;

@@ -1,5 +1,6 @@
 //! Without SYNC: the message is neither taken nor produced.
 
+use crate::Application;
 use crate::context::Context;
 use crate::time::Timer;
 use crate::{Frame, Instant};
@@ -29,7 +30,7 @@ pub(crate) fn check_sync_overflow(value: u8) -> Result<(), AbortCode> {
     if value == 0 { Ok(()) } else { Err(AbortCode::INVALID_VALUE) }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn configure_sync(&mut self) {}
 
     pub(crate) fn window_has_passed(&self) -> bool {

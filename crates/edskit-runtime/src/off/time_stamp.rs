@@ -1,10 +1,11 @@
 //! Without TIME: the message is not taken.
 
+use crate::Application;
 use crate::Frame;
 use crate::context::Context;
 use edskit_types::{AbortCode, CanId, CobId};
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn is_time(&self, _: CanId) -> bool {
         false
     }

@@ -2,13 +2,14 @@
 
 use super::mapping::Slots;
 use super::{MOST_ENTRIES, Parameters, PdoPolicy, Place, Remapping, Rpdo, Tpdo, remote, sub, synchronous};
+use crate::Application;
 use crate::Value;
 use crate::context::Context;
 use edskit_types::{
     AbortCode, CanId, CobId, MappingEntry, PdoDirection, SubIndex, Transmission, TransmissionType,
 };
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes the configuration of all PDOs from the dictionary.
     pub(crate) fn configure_pdos(&mut self) {
         let mut first = 0;

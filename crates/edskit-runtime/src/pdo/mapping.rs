@@ -1,6 +1,7 @@
 //! Which values a PDO carries.
 
 use super::{MOST_ENTRIES, Place};
+use crate::Application;
 use crate::Entry;
 use crate::context::Context;
 use crate::dictionary::{Flags, Position, unsigned};
@@ -83,7 +84,7 @@ fn mask(bits: u8) -> u64 {
     1_u64.checked_shl(bits.into()).map_or(u64::MAX, |bit| bit - 1)
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// The data of a PDO: the present values one behind the other, the first one in the lowest bits.
     pub(super) fn gather_values(&mut self, slots: Slots) -> u64 {
         let mut data = 0;

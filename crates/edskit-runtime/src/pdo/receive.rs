@@ -2,6 +2,7 @@
 
 use super::Parameters;
 use super::synchronous::waits_for_sync;
+use crate::Application;
 use crate::context::Context;
 use crate::dictionary::raw;
 use crate::time::Timer;
@@ -41,7 +42,7 @@ impl Rpdo {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// What is left of an RPDO with other parameters. Of one that is not the same any more, nothing is. Data wait for SYNC
     /// only in a type that makes them wait. An event time that runs begins anew, and the error of the old one goes.
     pub(super) fn rpdo_changed(&mut self, place: usize, new: Parameters, is_remapped: bool) {

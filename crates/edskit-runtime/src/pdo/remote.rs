@@ -1,6 +1,7 @@
 //! Remote requests of TPDOs.
 
 use super::Tpdo;
+use crate::Application;
 use crate::context::Context;
 use edskit_types::{CanId, NmtState, Transmission};
 
@@ -9,7 +10,7 @@ pub(super) fn knows(_: Transmission) -> bool {
     true
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// A remote frame that may ask for a TPDO. It is answered within the inhibit time too.
     pub(crate) fn tpdo_requested(&mut self, can_id: CanId) {
         if self.node.core.state != NmtState::Operational {

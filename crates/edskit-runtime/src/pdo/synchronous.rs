@@ -1,6 +1,7 @@
 //! Synchronous PDOs: data that count, and messages that are sent, with the SYNC message.
 
 use super::Tpdo;
+use crate::Application;
 use crate::context::Context;
 use edskit_types::{NmtState, Transmission};
 
@@ -21,7 +22,7 @@ impl Tpdo {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// The SYNC message makes the data count that were received before it.
     pub(crate) fn apply_synchronous_rpdos(&mut self) {
         if self.node.core.state != NmtState::Operational {

@@ -2,6 +2,7 @@
 
 use super::Parameters;
 use super::mapping::bit_of;
+use crate::Application;
 use crate::context::Context;
 use crate::dictionary::Position;
 use crate::services::Services;
@@ -172,7 +173,7 @@ impl Services<'_> {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// What is left of a TPDO with other parameters. Of one that is not the same any more, nothing is: it begins. A sample,
     /// a count and a transmission that waits for room belong to the transmission type; an event stays one as long as the
     /// type has events. The event timer runs as long as type and time ask for it, and begins anew when its time is another.

@@ -3,6 +3,7 @@
 use super::{
     BLOCK_CRC, Item, LAST_SEGMENT, MOST_SEGMENTS, Next, Request, SEGMENT, Session, Step, Transfer, number_of,
 };
+use crate::Application;
 use crate::context::Context;
 use crate::crc::Crc;
 use edskit_types::AbortCode;
@@ -27,7 +28,7 @@ impl BlockDownload {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_block_download(
         &mut self,
         number: usize,

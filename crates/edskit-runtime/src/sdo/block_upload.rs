@@ -1,6 +1,7 @@
 //! Block uploads: the client reads, and acknowledges whole blocks of segments.
 
 use super::{BLOCK_CRC, Item, LAST_SEGMENT, MOST_SEGMENTS, Next, Request, SEGMENT, Session, Step, Transfer};
+use crate::Application;
 use crate::context::Context;
 use crate::crc::Crc;
 use edskit_types::AbortCode;
@@ -39,7 +40,7 @@ impl BlockUpload {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_block_upload(
         &mut self,
         number: usize,

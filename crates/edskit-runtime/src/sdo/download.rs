@@ -3,10 +3,11 @@
 use super::{
     EXPEDITED, Item, Next, Request, SEGMENT, Session, Step, TOGGLE, Transfer, number_of, take_toggle,
 };
+use crate::Application;
 use crate::context::Context;
 use edskit_types::{AbortCode, DataType};
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_download(&mut self, number: usize, session: &mut Session, request: &Request) -> Step {
         let [command, _, _, _, data @ ..] = request;
         let (is_expedited, says_length) = (command & 2 != 0, command & 1 != 0);

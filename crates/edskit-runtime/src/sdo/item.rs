@@ -1,6 +1,7 @@
 //! The value that a transfer is about: opening it, and moving its bytes.
 
 use super::{SEGMENT, Step};
+use crate::Application;
 use crate::context::Context;
 use crate::dictionary::{Entry, Flags, Position, copy};
 use core::ops::Range;
@@ -50,7 +51,7 @@ impl Item {
     }
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Opens a value for reading.
     pub(super) fn open_source(&mut self, number: usize, item: &mut Item) -> Result<(), AbortCode> {
         let (position, entry) = self.open(item.entry.index, item.entry.sub_index)?;

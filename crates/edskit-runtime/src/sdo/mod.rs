@@ -8,6 +8,7 @@ mod download;
 mod item;
 mod upload;
 
+use crate::Application;
 use crate::context::Context;
 use crate::time::Timer;
 use crate::{Entry, Frame, Instant, MOST_DATA, Microseconds};
@@ -143,7 +144,7 @@ fn take_toggle(toggle: &mut u8, command: u8) -> Result<(), AbortCode> {
     Ok(())
 }
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes the servers from 1200h to 127Fh; the default server works without any object.
     pub(crate) fn configure_servers(&mut self) {
         self.node.servers.fill(SdoServer::NEW);

@@ -1,10 +1,11 @@
 //! Uploads: the client reads, expedited or in segments.
 
 use super::{EXPEDITED, Item, Next, SEGMENT, Session, Step, TOGGLE, Transfer};
+use crate::Application;
 use crate::context::Context;
 use edskit_types::AbortCode;
 
-impl Context<'_> {
+impl<A: Application + ?Sized> Context<'_, A> {
     pub(super) fn begin_upload(&mut self, number: usize, session: &mut Session) -> Step {
         self.open_source(number, &mut session.item)?;
         self.begin_upload_of(number, session)

@@ -6,6 +6,7 @@ mod domains;
 mod emergencies;
 mod error_changes;
 mod error_control;
+mod hooks;
 mod hostile;
 mod lss;
 mod nmt;

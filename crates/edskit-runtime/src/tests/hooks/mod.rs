@@ -1,0 +1,4 @@
+//! Devices whose manuals want it otherwise, each with all that it needs, as their users would write them.
+
+mod drive;
+mod sensor;
