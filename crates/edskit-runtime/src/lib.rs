@@ -79,19 +79,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 // Where a service is off, nobody uses what only it has used.
-#![cfg_attr(
-    not(all(
-        feature = "block-transfer",
-        feature = "guarding",
-        feature = "heartbeat-consumer",
-        feature = "lss",
-        feature = "rtr",
-        feature = "storage",
-        feature = "sync",
-        feature = "time"
-    )),
-    allow(dead_code)
-)]
+#![cfg_attr(not(feature = "default"), allow(dead_code, unused_imports))]
 
 #[cfg(test)]
 extern crate std;
