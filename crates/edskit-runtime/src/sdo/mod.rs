@@ -148,20 +148,19 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes the servers from 1200h to 127Fh; the default server works without any object.
     pub(crate) fn configure_servers(&mut self) {
         self.node.servers.fill(SdoServer::NEW);
-        let first = [DEFAULT].into_iter();
-        let table = self.node.objects.table;
-        let others = table.entries_from(Index(DEFAULT.0 + 1));
-        let others = others.take_while(|(_, entry)| entry.index.0 < Index::SDO_CLIENT.0);
-        let others = others.filter(|(_, entry)| entry.sub_index.0 == REQUEST).map(|(_, entry)| entry.index);
-        for (server, index) in self.node.servers.iter_mut().zip(first.chain(others)) {
-            server.index = index;
-        }
-        for place in 0..self.node.servers.len() {
-            if let Some(index) = self.node.servers.get(place).map(|server| server.index)
-                && (place == 0 || index != DEFAULT)
-            {
-                self.configure_server(index);
+        let (mut place, mut index) = (0, DEFAULT);
+        for (_, entry) in self.node.objects.table.entries_from(Index(DEFAULT.0 + 1)) {
+            let is_another = entry.index.0 < Index::SDO_CLIENT.0;
+            if is_another && entry.sub_index.0 != REQUEST {
+                continue;
             }
+            let Some(server) = self.node.servers.get_mut(place) else { return };
+            server.index = index;
+            self.configure_server(index);
+            if !is_another {
+                return;
+            }
+            (place, index) = (place + 1, entry.index);
         }
     }
 
