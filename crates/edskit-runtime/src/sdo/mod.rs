@@ -148,19 +148,14 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes the servers from 1200h to 127Fh; the default server works without any object.
     pub(crate) fn configure_servers(&mut self) {
         self.node.servers.fill(SdoServer::NEW);
-        let (mut place, mut index) = (0, DEFAULT);
-        for (_, entry) in self.node.objects.table.entries_from(Index(DEFAULT.0 + 1)) {
-            let is_another = entry.index.0 < Index::SDO_CLIENT.0;
-            if is_another && entry.sub_index.0 != REQUEST {
-                continue;
-            }
-            let Some(server) = self.node.servers.get_mut(place) else { return };
+        let others = self.node.objects.table.entries_from(Index(DEFAULT.0 + 1));
+        let mut others = others.take_while(|(_, entry)| entry.index.0 < Index::SDO_CLIENT.0);
+        let (mut place, mut next) = (0, Some(DEFAULT));
+        while let (Some(index), Some(server)) = (next, self.node.servers.get_mut(place)) {
             server.index = index;
             self.configure_server(index);
-            if !is_another {
-                return;
-            }
-            (place, index) = (place + 1, entry.index);
+            place += 1;
+            next = others.find(|(_, entry)| entry.sub_index.0 == REQUEST).map(|(_, entry)| entry.index);
         }
     }
 
