@@ -79,9 +79,9 @@ pub(super) fn bit_of(position: Position) -> u32 {
     1 << (position.0 % 32)
 }
 
-/// The lowest `bits` bits.
+/// The lowest `bits` bits, 1 to 64: no mapped value has fewer, and no PDO more, so nothing is shifted too far.
 fn mask(bits: u8) -> u64 {
-    1_u64.checked_shl(bits.into()).map_or(u64::MAX, |bit| bit - 1)
+    u64::MAX.wrapping_shr(u32::from(MOST_BITS.wrapping_sub(bits)))
 }
 
 impl<A: Application + ?Sized> Context<'_, A> {
@@ -97,7 +97,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
                 Source::Device(index, sub_index) => self.value_of_device(index, sub_index),
                 Source::Dummy => 0,
             };
-            data |= (bits & mask(value.bits)).checked_shl(offset).unwrap_or(0);
+            data |= (bits & mask(value.bits)).wrapping_shl(offset);
             offset += u32::from(value.bits);
         }
         data
@@ -122,7 +122,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
             let place = usize::from(slots.first) + usize::from(place);
             let Some(value) = self.node.mapped.get(place).copied() else { continue };
             let bits = data & mask(value.bits);
-            data = data.checked_shr(value.bits.into()).unwrap_or(0);
+            data = data.wrapping_shr(value.bits.into());
             let (position, entry) = match value.source {
                 Source::Dummy => continue,
                 Source::Dictionary(position) => match self.node.objects.table.entry(position) {
@@ -257,6 +257,6 @@ mod tests {
 
     #[test]
     fn masks() {
-        assert_eq!([mask(0), mask(1), mask(63), mask(64)], [0, 1, u64::MAX >> 1, u64::MAX]);
+        assert_eq!([mask(1), mask(8), mask(63), mask(64)], [1, 0xFF, u64::MAX >> 1, u64::MAX]);
     }
 }
