@@ -103,14 +103,6 @@ impl Emcy {
         }
     }
 
-    /// No error is present, and none is to be told.
-    pub(crate) fn restart(&mut self) {
-        self.present.fill(Present::NONE);
-        (self.missing, self.overruns, self.others) = (0, 0, 0);
-        self.waiting.clear();
-        self.sent = None;
-    }
-
     /// The error register that follows from what is present.
     fn register(&self) -> u8 {
         let present = self.present.iter().filter(|present| present.error != Error::NONE);

@@ -4,6 +4,7 @@ use crate::Application;
 use crate::access::is_communication;
 use crate::commissioning::{Commissioning, SOURCE};
 use crate::context::Context;
+use crate::emcy::Emcy;
 use crate::guarding::Guarding;
 use crate::heartbeat::Producer;
 use crate::heartbeat_consumer::HeartbeatConsumer;
@@ -93,7 +94,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         }
         let is_reset = move |index: Index| reset == Reset::Node || is_communication(index);
         self.node.objects.restore(self.node.core.node_id, is_reset);
-        self.node.core.emcy.restart();
+        self.node.core.emcy = Emcy::new();
         // Errors are those of this operation, whatever a file or a record says.
         self.node.objects.set_value(Index::ERROR_REGISTER, 0, 0_u8);
         self.node.objects.set_value(Index::PREDEFINED_ERROR_FIELD, 0, 0_u8);

@@ -52,10 +52,6 @@ impl<T: Copy, const N: usize> Ring<T, N> {
         self.count == 0
     }
 
-    pub(crate) fn len(&self) -> usize {
-        self.count
-    }
-
     /// How many more items fit.
     pub(crate) fn room(&self) -> usize {
         N - self.count

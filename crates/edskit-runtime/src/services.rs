@@ -158,28 +158,23 @@ impl<A: Application + ?Sized> Context<'_, A> {
         if !self.node.core.requests.is_some() {
             return;
         }
-        let requests = &mut self.node.core.requests;
-        let (reset, state) = (requests.reset.take(), requests.state.take());
-        let updates_all = core::mem::take(&mut requests.updates_all);
-        let updates = requests.updates.len();
-        if let Some(reset) = reset {
+        let mut requests = core::mem::replace(&mut self.node.core.requests, Requests::NONE);
+        if let Some(reset) = requests.reset {
             // All parameters are taken anew.
-            requests.updates.clear();
             return self.initialise(reset);
         }
         let table = self.node.objects.table;
-        if updates_all {
+        if requests.updates_all {
             for (_, entry) in table.all().filter(|(_, entry)| is_communication(entry.index)) {
                 self.parameter_changed(entry);
             }
         }
-        for _ in 0..updates {
-            let position = self.node.core.requests.updates.pop();
-            if let Some(entry) = position.and_then(|position| table.entry(position)) {
+        while let Some(position) = requests.updates.pop() {
+            if let Some(entry) = table.entry(position) {
                 self.parameter_changed(entry);
             }
         }
-        if let Some(state) = state {
+        if let Some(state) = requests.state {
             self.enter(state);
         }
     }

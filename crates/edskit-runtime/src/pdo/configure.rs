@@ -107,11 +107,15 @@ impl<A: Application + ?Sized> Context<'_, A> {
         match place.direction {
             PdoDirection::Receive => {
                 let position = self.node.rpdos.iter().position(|rpdo| rpdo.parameters.number == number);
-                self.rpdo_changed(position.unwrap_or_default(), &new, is_remapped);
+                self.rpdo_changed(position.unwrap_or_default(), new, is_remapped);
             }
             PdoDirection::Transmit => {
                 let position = self.node.tpdos.iter().position(|tpdo| tpdo.parameters.number == number);
-                self.tpdo_changed(position.unwrap_or_default(), &new, is_remapped);
+                let inhibit_time = self.node.objects.value(index, sub::INHIBIT_TIME).unwrap_or_default();
+                let sync_start = self.node.objects.value(index, sub::SYNC_START);
+                let sync_start = sync_start.filter(|value| is_sync_start(*value)).unwrap_or_default();
+                let position = position.unwrap_or_default();
+                self.tpdo_changed(position, new, inhibit_time, sync_start, is_remapped);
             }
         }
     }
@@ -219,6 +223,6 @@ impl<A: Application + ?Sized> Context<'_, A> {
 }
 
 /// Whether a number can be the counter of the SYNC message with which a TPDO begins; 0 for any.
-pub(super) fn is_sync_start(value: u8) -> bool {
+fn is_sync_start(value: u8) -> bool {
     value <= 240
 }

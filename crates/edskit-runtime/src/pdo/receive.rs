@@ -45,10 +45,9 @@ impl Rpdo {
 impl<A: Application + ?Sized> Context<'_, A> {
     /// What is left of an RPDO with other parameters. Of one that is not the same any more, nothing is. Data wait for SYNC
     /// only in a type that makes them wait. An event time that runs begins anew, and the error of the old one goes.
-    #[inline(never)]
-    pub(super) fn rpdo_changed(&mut self, place: usize, new: &Parameters, is_remapped: bool) {
+    pub(super) fn rpdo_changed(&mut self, place: usize, new: Parameters, is_remapped: bool) {
         let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
-        let old = core::mem::replace(&mut rpdo.parameters, *new);
+        let old = core::mem::replace(&mut rpdo.parameters, new);
         if !new.is_same_pdo(&old, is_remapped) {
             self.end_rpdo(place);
             self.shortness_found(place, false, 0);

@@ -1,15 +1,14 @@
 //! TPDOs: when they are sent, and why they are not.
 
-use super::configure::is_sync_start;
+use super::Parameters;
 use super::mapping::bit_of;
-use super::{Parameters, Place, sub};
 use crate::Application;
 use crate::context::Context;
 use crate::dictionary::Position;
 use crate::services::Services;
 use crate::time::Timer;
 use crate::{Instant, Microseconds};
-use edskit_types::{NmtState, PdoDirection, Transmission};
+use edskit_types::{NmtState, Transmission};
 
 /// A TPDO at work.
 #[derive(Clone, Copy, Debug)]
@@ -178,20 +177,21 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// What is left of a TPDO with other parameters. Of one that is not the same any more, nothing is: it begins. A sample,
     /// a count and a transmission that waits for room belong to the transmission type; an event stays one as long as the
     /// type has events. The event timer runs as long as type and time ask for it, and begins anew when its time is another.
-    #[inline(never)]
-    pub(super) fn tpdo_changed(&mut self, place: usize, new: &Parameters, is_remapped: bool) {
-        let index =
-            Place { direction: PdoDirection::Transmit, number: new.number.saturating_sub(1) }.communication();
-        let inhibit_time = self.node.objects.value(index, sub::INHIBIT_TIME).unwrap_or_default();
-        let sync_start = self.node.objects.value(index, sub::SYNC_START);
-        let sync_start = sync_start.filter(|value| is_sync_start(*value)).unwrap_or_default();
+    pub(super) fn tpdo_changed(
+        &mut self,
+        place: usize,
+        new: Parameters,
+        inhibit_time: u16,
+        sync_start: u8,
+        is_remapped: bool,
+    ) {
         let is_operational = self.node.core.state == NmtState::Operational;
         let Some(tpdo) = self.node.tpdos.get_mut(place) else { return };
         // The device may change what a client cannot while the PDO exists.
         let has_other_times = inhibit_time != tpdo.inhibit_time || sync_start != tpdo.sync_start;
         let is_same = new.is_same_pdo(&tpdo.parameters, is_remapped) && !has_other_times;
         let (old_meaning, old_period) = (tpdo.meaning(), tpdo.event_period());
-        tpdo.parameters = *new;
+        tpdo.parameters = new;
         tpdo.inhibit_time = inhibit_time;
         tpdo.sync_start = sync_start;
         tpdo.carries = new.slots.carries(self.node.mapped);

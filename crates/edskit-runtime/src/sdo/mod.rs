@@ -148,14 +148,20 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes the servers from 1200h to 127Fh; the default server works without any object.
     pub(crate) fn configure_servers(&mut self) {
         self.node.servers.fill(SdoServer::NEW);
-        let others = self.node.objects.table.entries_from(Index(DEFAULT.0 + 1));
-        let mut others = others.take_while(|(_, entry)| entry.index.0 < Index::SDO_CLIENT.0);
-        let (mut place, mut next) = (0, Some(DEFAULT));
-        while let (Some(index), Some(server)) = (next, self.node.servers.get_mut(place)) {
+        let first = [DEFAULT].into_iter();
+        let table = self.node.objects.table;
+        let others = table.entries_from(Index(DEFAULT.0 + 1));
+        let others = others.take_while(|(_, entry)| entry.index.0 < Index::SDO_CLIENT.0);
+        let others = others.filter(|(_, entry)| entry.sub_index.0 == REQUEST).map(|(_, entry)| entry.index);
+        for (server, index) in self.node.servers.iter_mut().zip(first.chain(others)) {
             server.index = index;
-            self.configure_server(index);
-            place += 1;
-            next = others.find(|(_, entry)| entry.sub_index.0 == REQUEST).map(|(_, entry)| entry.index);
+        }
+        for place in 0..self.node.servers.len() {
+            if let Some(index) = self.node.servers.get(place).map(|server| server.index)
+                && (place == 0 || index != DEFAULT)
+            {
+                self.configure_server(index);
+            }
         }
     }
 
