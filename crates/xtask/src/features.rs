@@ -3,8 +3,17 @@
 use crate::step::{Outcome, cargo, run};
 
 /// Every feature of `edskit-runtime`.
-pub(crate) const ALL: &[&str] =
-    &["block-transfer", "guarding", "heartbeat-consumer", "lss", "rtr", "storage", "sync", "time"];
+pub(crate) const ALL: &[&str] = &[
+    "block-transfer",
+    "further-sdo-servers",
+    "guarding",
+    "heartbeat-consumer",
+    "lss",
+    "rtr",
+    "storage",
+    "sync",
+    "time",
+];
 
 /// A firmware, and the most bytes that it takes: what they were when they were measured last, and a little more for
 /// another compiler.
@@ -29,6 +38,7 @@ pub(crate) enum Eds {
 pub(crate) const FIRMWARES: &[Firmware] = &[
     firmware(&[], Eds::Full, 30_000, 1_700),
     firmware(&["block-transfer"], Eds::Full, 30_000, 1_700),
+    firmware(&["further-sdo-servers"], Eds::Full, 30_000, 1_700),
     firmware(&["guarding"], Eds::Full, 30_000, 1_700),
     firmware(&["heartbeat-consumer"], Eds::Full, 30_000, 1_700),
     firmware(&["lss"], Eds::Full, 30_000, 1_700),

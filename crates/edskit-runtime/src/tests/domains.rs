@@ -98,7 +98,7 @@ fn four_bytes_count_where_neither_side_says_how_many() {
 
 // U5
 
-#[cfg(feature = "block-transfer")]
+#[cfg(all(feature = "block-transfer", feature = "further-sdo-servers"))]
 #[test]
 fn the_application_is_told_of_a_broken_download_once() {
     type End = fn(&mut Bench);

@@ -19,6 +19,8 @@ fn claims() -> Builder {
         .u32(0x1012, 0, RW, 0x8000_0100)
         .u32(0x1016, 1, RW, 0x0007_0064)
         .u8(0x1019, 0, RW, 0)
+        .u32(0x1201, 1, RW, 0x641)
+        .u32(0x1201, 2, RW, 0x5C1)
         .pdo(0x1800, 0x180, 0xFF, &[0x2000_0010])
 }
 
@@ -115,4 +117,12 @@ fn lss_gets_no_answer() {
     for request in [[0x04, 1, 0, 0, 0, 0, 0, 0], [0x5E, 0, 0, 0, 0, 0, 0, 0], [0x4C, 0, 0, 0, 0, 0, 0, 0]] {
         assert_eq!(bench.ask(0x7E5, &request), []);
     }
+}
+
+#[test]
+#[cfg(not(feature = "further-sdo-servers"))]
+fn there_is_one_sdo_server() {
+    reads_only(0x1201, 1, &[0x41, 6, 0, 0], &[0x41, 6, 0, 0x80]);
+    let mut bench = Bench::new(claims().build());
+    assert_eq!(bench.ask(0x641, &[0x40, 0x00, 0x10, 0, 0, 0, 0, 0]), []);
 }
