@@ -6,7 +6,7 @@
 use edskit_codegen::{LoadedDictionary, parse};
 use edskit_host::sdo::{SdoChannel, SdoError, SdoMode, SdoOptions, Transfer};
 use edskit_runtime::{
-    Application, Entry, Error, Frame, Instant, Microseconds, Node, Record, Services, Settings, Storage,
+    Application, EmcyError, Entry, Frame, Instant, Microseconds, Node, Record, Services, Settings, Storage,
     StorageError,
 };
 use edskit_tests::allocation::{self, Counting};
@@ -84,7 +84,7 @@ fn error_control(watched: &mut Watched<'_>) {
     let sent = watched.pass(50);
     assert!(sent.contains(&frame(0x705, &[127])), "the node has left operational: {sent:?}");
     assert!(sent.iter().any(|frame| frame.data().starts_with(&[0x30, 0x81])), "{sent:?}");
-    let error = Error { code: 0x4200, register: 8 };
+    let error = EmcyError { code: 0x4200, register: 8 };
     watched.counted(|node, _, now| node.services(now).raise(error, 1, [0; 5]));
     watched.counted(|node, _, now| node.services(now).clear(error, 1));
     let told = watched.pass(0).into_iter().filter(|frame| frame.can_id().raw() == 0x85).count();

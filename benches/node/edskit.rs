@@ -21,7 +21,7 @@ impl Edskit {
         let node = Node::new(bench::Dictionary::new(), settings, NoStorage);
         let mut device = Self { node, now: Instant(0) };
         start(&mut device);
-        device.node.objects().store(handles::BYTES, &bytes());
+        device.node.objects().store(handles::BYTES, &bytes()).expect("there is room for them");
         device
     }
 }
@@ -57,16 +57,16 @@ impl Device for Edskit {
         let mut objects = self.node.objects();
         let position = match mapping {
             Mapping::Words => {
-                objects.set(handles::TRANSMITTED_WORDS1, value.into());
-                handles::TRANSMITTED_WORDS1.position()
+                objects.set(handles::TRANSMITTED_WORDS[0], value.into());
+                handles::TRANSMITTED_WORDS[0].position()
             }
             Mapping::Bits => {
-                objects.set(handles::TRANSMITTED_BITS1, value & 1 == 1);
-                handles::TRANSMITTED_BITS1.position()
+                objects.set(handles::TRANSMITTED_BITS[0], value & 1 == 1);
+                handles::TRANSMITTED_BITS[0].position()
             }
             Mapping::Bytes => {
-                objects.set(handles::TRANSMITTED_BYTES1, value);
-                handles::TRANSMITTED_BYTES1.position()
+                objects.set(handles::TRANSMITTED_BYTES[0], value);
+                handles::TRANSMITTED_BYTES[0].position()
             }
         };
         self.node.services(self.now).changed(position);

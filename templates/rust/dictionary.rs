@@ -2,6 +2,7 @@
 
 /// The object dictionary{% if let Some(product) = product %} of {{ product }}{% endif %}, from {{ eds_docs }}.
 #[allow(dead_code, unreachable_pub, reason = "a device does not need everything that its EDS describes")]
+#[rustfmt::skip]
 pub mod {{ naming.module }} {
     use {{ naming.runtime }}::types::{BitRates, {% if bit_rates.contains("Bitrate::") %}Bitrate, {% endif %}DataType, Index,{% if !checks.is_empty() %} MappingEntry,{% endif %} SubIndex};
     use {{ naming.runtime }}::{Entry, Flags, Limits, Memory, Parts, {% if !limits.is_empty() %}Position, {% endif %}Settings, {% if has_groups %}StorageGroup, {% endif %}Table};
@@ -51,21 +52,27 @@ pub mod {{ naming.module }} {
         fingerprint: {{ fingerprint }},
     };
 
-    /// The entries, to read and write them without a look-up. A text, a time or a domain has its position only.
+    /// The entries, to read and write them without a look-up; those of an array begin with sub-index 01h at place 0.
     pub mod objects {
-{%- if has_handles %}
-        use {{ naming.runtime }}::{Handle, Position};
-{%- else if has_positions %}
-        use {{ naming.runtime }}::Position;
+{%- if !handles.is_empty() %}
+        use {{ naming.runtime }}::{{ "{" }}{{ imports }}{{ "}" }};
 {%- endif %}
 {%- for handle in handles %}
+{% for line in handle.docs %}
+        ///{{ line }}
+{%- endfor %}
+        pub const {{ handle.name }}: {{ handle.handle_type }} = {{ handle.value }};
+{%- endfor %}
+    }
 
-        /// {{ handle.docs }}
-{%- if let Some(value) = handle.value %}
-        pub const {{ handle.name }}: Handle<{{ value }}> = Handle::new(Position({{ handle.position }}));
-{%- else %}
-        pub const {{ handle.name }}: Position = Position({{ handle.position }});
-{%- endif %}
+    /// The index and sub-index of each entry, to `match` on: [`Entry::key`].
+    #[allow(missing_docs, reason = "the entries are those of `objects`")]
+    pub mod keys {
+{%- if !keys.is_empty() %}
+        use {{ naming.runtime }}::Key;
+{% endif %}
+{%- for key in keys %}
+        pub const {{ key.name }}: Key = Key::new({{ key.index }}, {{ key.sub_index }});
 {%- endfor %}
     }
 {% for flags in flags %}

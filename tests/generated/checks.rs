@@ -3,6 +3,9 @@
 use crate::compiler::{Packages, stderr};
 use edskit_codegen::{Naming, parse, render};
 use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
 
 /// A mapping parameter with these entries, and something to map.
 fn eds(entries: &[&str]) -> String {
@@ -54,9 +57,21 @@ fn a_mapping_that_cannot_be_stops_the_compiler_at_the_place_in_the_eds() {
     let output = packages.cargo(&["check", "-p", "bad"]);
     assert!(!output.status.success());
     let lines: BTreeSet<String> =
-        [6, 34, 38, 42, 46, 50, 54].iter().map(|line| format!("eds/bad {{device}}.eds:{line}:14")).collect();
+        [6, 34, 38, 42, 46, 50, 54].iter().map(|line| format!("bad {{device}}.eds:{line}:14")).collect();
     let compiler = stderr(&output);
     assert_eq!(complaints(&compiler), lines, "{compiler}");
     assert!(compiler.contains("TPDO1 cannot carry 2001h sub-index 00h with 16 bits"), "{compiler}");
     assert!(compiler.contains("TPDO1 carries 176 bits, and a PDO has 64"), "{compiler}");
+}
+
+#[test]
+fn a_generated_file_that_is_checked_in_stays_as_it_is() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("formatted");
+    fs::create_dir_all(&folder).expect("the folder can be made");
+    let path = folder.join("good.rs");
+    let code = code(&eds(&["0x20000010", "0x20040020"]), "good.eds");
+    fs::write(&path, code).expect("the file can be written");
+    let output = Command::new("rustfmt").args(["--check", "--edition", "2024"]).arg(&path).output();
+    let output = output.expect("rustfmt runs");
+    assert!(output.status.success(), "{}{}", String::from_utf8_lossy(&output.stdout), stderr(&output));
 }

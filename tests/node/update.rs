@@ -3,7 +3,7 @@
 use edskit_codegen::{Layout, LoadedDictionary, parse};
 use edskit_host::MemoryStorage;
 use edskit_runtime::{
-    Application, Emergency, Entry, Flags, Frame, Instant, Node, Objects, Services, Settings,
+    Application, Emergency, Entry, Flags, Frame, Instant, Key, Node, Objects, Services, Settings,
 };
 use edskit_types::{CanId, Index, NodeId, SubIndex};
 use proptest::prelude::*;
@@ -171,7 +171,8 @@ proptest! {
         for (index, value) in &stored {
             if let Ok(position) = old_layout.table().find(Index(*index), SubIndex(0)) {
                 let size = usize::from(old_layout.entries[usize::from(position.0)].size);
-                node.objects().store(position, &value[..size.min(value.len())]);
+                let stored = node.objects().store_by_key(Key::new(*index, 0), &value[..size.min(value.len())]);
+                prop_assert_eq!(stored, Ok(()));
             }
         }
         let saved = values(&old_layout, &node.objects());

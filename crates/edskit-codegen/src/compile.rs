@@ -2,9 +2,11 @@
 
 use crate::{Naming, Problem, generate, module_name, settings};
 use edskit_lint::{Linter, Profile, RuleSet};
+use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf, absolute};
+use std::path::{Component, Path, PathBuf, absolute};
+use std::sync::{Mutex, PoisonError};
 use std::{env, fs};
 
 /// Generates the dictionary of an EDS or DCF, whose path is seen from the package; for build scripts.
@@ -15,7 +17,7 @@ use std::{env, fs};
 /// ```
 ///
 /// The module `device` lies in `$OUT_DIR/Device.rs` afterwards, and `edskit_runtime::include_dictionary!("Device")` takes
-/// it in. A side-file `eds/Device.toml` is read where there is one. What makes the dictionary wrong or ambiguous becomes an
+/// it in. A side-file `eds/Device.toml` is read where there is one, and noticed when it is made later. What makes the dictionary wrong or ambiguous becomes an
 /// error of cargo and fails the build; everything else that the linter and the generator say becomes a warning of cargo.
 /// `edskit.toml`, found upwards from the EDS, and comments `;edskit: allow(RULE)` count as in `edskit lint`.
 pub fn compile(eds: impl AsRef<Path>) {
@@ -134,6 +136,14 @@ impl Config {
             return say(cargo, "error", message);
         };
         let path = folder.join(self.file_name(eds));
+        let source = Source::new(eds, &naming.side_file);
+        if let Some(other) = source.in_the_way(&path, &generated.code) {
+            let (eds, path, other) = (eds.display(), path.display(), other.display());
+            let message = format!(
+                "{eds}: {path} is the dictionary of {other} already; give one of them a name of its own with Config::name"
+            );
+            return say(cargo, "error", &message);
+        }
         match write_if_changed(&path, &generated.code) {
             Ok(_) => Ok(()),
             Err(error) => say(cargo, "error", &format!("{}: {error}", path.display())),
@@ -214,11 +224,7 @@ impl Config {
             Err(error) => return Ok(wrong(eds, error)),
         };
         if self.side_file.is_none() && !side_file.exists() {
-            // A file that does not exist would make every build begin anew, but the folder changes when it is made.
-            let folder = eds.parent().filter(|folder| folder.components().next().is_some());
-            if let Some(folder) = folder {
-                say(cargo, "rerun-if-changed", &folder.to_string_lossy())?;
-            }
+            say(cargo, "rerun-if-changed", &place_of_later(eds, side_file).to_string_lossy())?;
             return Ok(Ok(Inputs { eds: eds_bytes, side_file: None }));
         }
         say(cargo, "rerun-if-changed", &side_file.to_string_lossy())?;
@@ -232,6 +238,44 @@ impl Config {
 struct Inputs {
     eds: Vec<u8>,
     side_file: Option<String>,
+}
+
+/// What cargo has to look at in order to notice a side-file that is made later. A file that does not exist makes every build
+/// begin anew, but the folder of the EDS changes when it is made. The package's own folder cannot be looked at instead: what
+/// cargo builds lies in it.
+fn place_of_later<'a>(eds: &'a Path, side_file: &'a Path) -> &'a Path {
+    let folder = eds.parent().filter(|folder| folder.components().any(|part| part != Component::CurDir));
+    folder.unwrap_or(side_file)
+}
+
+/// What a dictionary was made from.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Source {
+    eds: PathBuf,
+    side_file: PathBuf,
+}
+
+/// What this build script has written, by its path in small letters, since some file systems do not tell them apart.
+static WRITTEN: Mutex<BTreeMap<String, (Source, String)>> = Mutex::new(BTreeMap::new());
+
+impl Source {
+    fn new(eds: &Path, side_file: &str) -> Self {
+        let whole = |path: &Path| absolute(path).unwrap_or_else(|_| path.to_path_buf());
+        Self { eds: whole(eds), side_file: whole(Path::new(side_file)) }
+    }
+
+    /// The EDS whose dictionary the same script has written there, if that is another one; else the place is this one's.
+    fn in_the_way(self, path: &Path, code: &str) -> Option<PathBuf> {
+        let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = path.to_string_lossy().to_lowercase();
+        match written.get(&key) {
+            Some((source, other)) if *source != self && other != code => Some(source.eds.clone()),
+            _ => {
+                written.insert(key, (self, code.to_owned()));
+                None
+            }
+        }
+    }
 }
 
 /// One instruction for cargo, which is one line: `cargo::warning=..`.

@@ -67,6 +67,7 @@ pub fn generate(
     warnings.extend_from_slice(&layout.notes);
     warnings.extend(layout.cob_id_problems(None));
     warnings.extend(unused);
+    warnings.extend(crate::render::renamed(&layout));
     Ok(Generated { code: render(&layout, naming), layout, warnings })
 }
 

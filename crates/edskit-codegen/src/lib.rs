@@ -26,18 +26,20 @@ mod generate;
 mod identifier;
 mod layout;
 mod loaded;
+mod names;
 mod problem;
 mod render;
 mod settings;
 mod side_file;
 mod text;
+mod transliteration;
 
 pub use compile::{Config, compile, write_if_changed};
 pub use edskit_lint::{RuleSet, Severity};
 pub use generate::{Generated, generate, parse};
 pub use identifier::module_name;
 pub use layout::{
-    CobIdParameter, Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out,
+    Array, CobIdParameter, Counts, Layout, MOST_BYTES, MOST_ENTRIES, Mapped, Mapping, Place, Source, lay_out,
 };
 pub use loaded::LoadedDictionary;
 pub use problem::{InputFile, Problem};

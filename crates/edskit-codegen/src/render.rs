@@ -1,9 +1,12 @@
 //! From a layout to Rust.
 
+mod handles;
+mod renamed;
 mod view;
 
 use crate::Layout;
 use askama::Template;
+pub(crate) use renamed::renamed;
 use view::View;
 
 /// How the generated code is named, and what it names.
@@ -28,7 +31,7 @@ impl Naming {
     /// ```
     #[must_use]
     pub fn of(eds: &str) -> Self {
-        let file_name = eds.rsplit(['/', '\\']).next().unwrap_or_default();
+        let file_name = file_name(eds);
         let stem = file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem);
         let end = eds.len() - file_name.len() + stem.len();
         Self {
@@ -40,6 +43,11 @@ impl Naming {
     }
 }
 
+/// The name of the file at a path. Generated code has no more of the path: it is the same wherever the file lies.
+pub(crate) fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or_default()
+}
+
 /// The Rust code of a dictionary: one module.
 ///
 /// Names of the EDS stand in comments only, and identifiers are made from their letters and digits.
@@ -48,6 +56,7 @@ pub fn render(layout: &Layout, naming: &Naming) -> String {
     // Neither the view's types nor a string fail to be written.
     View::new(layout, naming)
         .render()
+        .map(|code| code + "\n")
         .unwrap_or_else(|error| format!("compile_error!({:?});\n", error.to_string()))
 }
 

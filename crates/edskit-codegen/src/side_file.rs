@@ -3,6 +3,8 @@
 mod places;
 
 use crate::Problem;
+use crate::identifier::words;
+use crate::names::{MOST_CHARACTERS, is_place_name};
 use core::ops::Range;
 use edskit_lint::Severity;
 use edskit_model::Span;
@@ -29,15 +31,30 @@ pub struct SideFile {
     optional: Vec<Said<()>>,
     variable: Vec<Said<()>>,
     rpdo: Vec<Said<()>>,
+    given: Vec<Said<()>>,
+    names: Vec<Said<String>>,
     extra: Vec<Extra>,
 }
 
 /// Something said about some entries, and where.
 #[derive(Clone, Debug)]
-struct Said<T> {
-    places: Places,
-    span: Span,
-    what: T,
+pub(crate) struct Said<T> {
+    pub(crate) places: Places,
+    pub(crate) span: Span,
+    pub(crate) what: T,
+}
+
+/// A key that says something about entries.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Key {
+    Optional,
+    Variable,
+    Rpdo,
+    Given,
+    Storage(Option<StorageGroup>),
+    Capacity(u16),
+    Unit,
+    Name,
 }
 
 /// Entries that the EDS does not describe.
@@ -57,6 +74,11 @@ impl Extra {
     /// The entries that it adds, in ascending order.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (Index, SubIndex)> + '_ {
         self.places.entries()
+    }
+
+    /// Whether it adds several sub-objects to an object.
+    pub(crate) fn has_several_sub_objects(&self) -> bool {
+        self.places.sub_indices() > 1
     }
 }
 
@@ -112,20 +134,48 @@ impl SideFile {
         narrowest(&self.rpdo, index, sub_index).is_some()
     }
 
+    /// Whether the device is given the value of an entry at start, and no reset changes it.
+    #[must_use]
+    pub fn is_given(&self, index: Index, sub_index: SubIndex) -> bool {
+        narrowest(&self.given, index, sub_index).is_some()
+    }
+
+    /// What the handle of an entry is called, and what those of the other entries of its object begin with.
+    pub(crate) fn names(&self, index: Index, sub_index: SubIndex) -> (Option<&str>, Option<&str>) {
+        let fitting = |is_of_object: bool| {
+            let is_it = |said: &&Said<String>| {
+                said.places.contain(index, sub_index) && (said.places.sub_indices() > 1) == is_of_object
+            };
+            self.names.iter().find(is_it).map(|said| &*said.what)
+        };
+        (fitting(false), fitting(true))
+    }
+
     /// Entries that the EDS does not describe.
     pub(crate) fn extras(&self) -> &[Extra] {
         &self.extra
     }
 
-    /// Where something is said about entries that do not exist.
-    pub(crate) fn unused(&self, has: impl Fn(&Places) -> bool) -> Vec<Span> {
-        let storage = self.storage.iter().map(|said| (&said.places, said.span));
-        let capacity = self.capacity.iter().map(|said| (&said.places, said.span));
-        let unit = self.unit.iter().map(|said| (&said.places, said.span));
-        let flags = [&self.optional, &self.variable, &self.rpdo].into_iter().flatten();
-        let flags = flags.map(|said| (&said.places, said.span));
-        let all = storage.chain(capacity).chain(unit).chain(flags);
-        all.filter(|(places, _)| !has(places)).map(|(_, span)| span).collect()
+    /// Everything that is said about entries.
+    pub(crate) fn statements(&self) -> Vec<Said<Key>> {
+        let flags = [
+            (&self.optional, Key::Optional),
+            (&self.variable, Key::Variable),
+            (&self.rpdo, Key::Rpdo),
+            (&self.given, Key::Given),
+        ];
+        let flags = flags.into_iter().flat_map(|(all, key)| all.iter().map(move |said| said.with(key)));
+        let storage = self.storage.iter().map(|said| said.with(Key::Storage(said.what)));
+        let capacity = self.capacity.iter().map(|said| said.with(Key::Capacity(said.what)));
+        let unit = self.unit.iter().map(|said| said.with(Key::Unit));
+        let names = self.names.iter().map(|said| said.with(Key::Name));
+        flags.chain(storage).chain(capacity).chain(unit).chain(names).collect()
+    }
+}
+
+impl<T> Said<T> {
+    fn with(&self, key: Key) -> Said<Key> {
+        Said { places: self.places.clone(), span: self.span, what: key }
     }
 }
 
@@ -139,6 +189,10 @@ fn span_of(range: &Range<usize>) -> Span {
     Span::new(range.start as u32, range.end as u32)
 }
 
+/// What names are.
+const NAMES: &str = "names begin with a letter, have at most 60 capitals, digits and single underscores, and do not look like \
+    `OBJECT_2001_01`";
+
 /// What is wrong, and at which bytes.
 type Complaint = (Range<usize>, String);
 
@@ -151,6 +205,10 @@ struct Raw {
     variable: Vec<Spanned<String>>,
     #[serde(default)]
     rpdo: Vec<Spanned<String>>,
+    #[serde(default)]
+    given: Vec<Spanned<String>>,
+    #[serde(default)]
+    names: BTreeMap<Spanned<String>, Spanned<String>>,
     #[serde(default)]
     storage: BTreeMap<Spanned<String>, Spanned<RawGroup>>,
     #[serde(default)]
@@ -193,6 +251,8 @@ impl Raw {
             optional: flags(&self.optional)?,
             variable: flags(&self.variable)?,
             rpdo: flags(&self.rpdo)?,
+            given: flags(&self.given)?,
+            names: check_names(&self.names)?,
             storage: storage.collect::<Result<_, _>>()?,
             capacity: capacity.collect::<Result<_, _>>()?,
             unit: unit.collect::<Result<_, _>>()?,
@@ -254,6 +314,38 @@ fn check_group(group: &Spanned<RawGroup>) -> Result<Option<StorageGroup>, Compla
     }
 }
 
+/// What the side-file calls things: each name is one that can be written as it stands, and stands there once.
+fn check_names(names: &BTreeMap<Spanned<String>, Spanned<String>>) -> Result<Vec<Said<String>>, Complaint> {
+    let mut checked: Vec<Said<String>> = Vec::new();
+    // In the order of the file: the second of two equal names is the one too many.
+    let mut in_order: Vec<_> = names.iter().collect();
+    in_order.sort_by_key(|(places, _)| places.span().start);
+    for (places, name) in in_order {
+        let text = name.get_ref();
+        let said = said(places, text.clone())?;
+        if !said.places.are_one() {
+            let message =
+                format!("`{}` is more than one entry, and each has a name of its own", places.get_ref());
+            return Err((places.span(), message));
+        }
+        let usual = words(text).to_ascii_uppercase();
+        let begins_as_name = text.starts_with(|first: char| first.is_ascii_uppercase());
+        if *text != usual || !begins_as_name || text.len() > MOST_CHARACTERS || is_place_name(text) {
+            let is_usual = usual.starts_with(|first: char| first.is_ascii_uppercase())
+                && usual.len() <= MOST_CHARACTERS
+                && !is_place_name(&usual);
+            let instead =
+                if is_usual && *text != usual { format!("write `{usual}`") } else { NAMES.to_owned() };
+            return Err((name.span(), format!("`{text}` cannot be the name of a handle: {instead}")));
+        }
+        if checked.iter().any(|other| other.what == *text) {
+            return Err((name.span(), format!("`{text}` is the name of another entry already")));
+        }
+        checked.push(said);
+    }
+    Ok(checked)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -279,7 +371,7 @@ mod tests {
             line("[unit]\n'20000' = 'V'\n"),
             "a.toml:2:1: GEN `20000` names no entries; write them as `2000`, `1018sub4` or `2000-20FFsub1-3`"
         );
-        for key in ["optional", "variable", "rpdo"] {
+        for key in ["optional", "variable", "rpdo", "given"] {
             assert_eq!(
                 line(&format!("{key} = [\n'2000', '2000sub1-'\n]\n")),
                 "a.toml:2:9: GEN `2000sub1-` names no entries; write them as `2000`, `1018sub4` or `2000-20FFsub1-3`"
@@ -289,6 +381,26 @@ mod tests {
             line("[storage]\n'2000' = 1\n"),
             "a.toml:2:10: GEN a group is `none`, `communication`, `application`, `manufacturer`, or a sub-index of \
              1010h, 2 to 127"
+        );
+        for (name, instead) in [
+            ("inlet pressure", "write `INLET_PRESSURE`"),
+            ("Größe", "write `GROESSE`"),
+            ("A__B", "write `A_B`"),
+            ("OBJECT_2001", NAMES),
+            ("2", NAMES),
+            ("", NAMES),
+        ] {
+            let message = format!("a.toml:2:10: GEN `{name}` cannot be the name of a handle: {instead}");
+            assert_eq!(line(&format!("[names]\n'2001' = '{name}'\n")), message);
+        }
+        assert!(line(&format!("[names]\n'2001' = '{}'\n", "A".repeat(61))).ends_with(NAMES));
+        assert_eq!(
+            line("[names]\n'2002' = 'A'\n'2001' = 'A'\n"),
+            "a.toml:3:10: GEN `A` is the name of another entry already"
+        );
+        assert_eq!(
+            line("[names]\n'2001sub1-2' = 'A'\n"),
+            "a.toml:2:1: GEN `2001sub1-2` is more than one entry, and each has a name of its own"
         );
         assert!(line("[units]\n").starts_with("a.toml:1:2: GEN unknown field `units`"));
         let extra = "[[extra]]\nentries = '2000sub1'\nname = 'x'\naccess = 'rw'\ndata-type = ";

@@ -1,6 +1,8 @@
 //! What a device adds to CiA 301, and where it differs.
 
-use crate::{Commissioning, Emergency, Entry, Error, LssAnswer, LssRequest, Microseconds, Record, Services};
+use crate::{
+    Commissioning, EmcyError, Emergency, Entry, LssAnswer, LssRequest, Microseconds, Record, Services,
+};
 use edskit_types::{
     AbortCode, Bitrate, Index, NmtState, NodeId, PdoDirection, SubIndex, Transmission, TransmissionType,
 };
@@ -45,7 +47,7 @@ pub trait Application {
     /// Whether a value that an SDO client or an RPDO writes is an event of the TPDOs that carry it, as the transmission types
     /// 00h, FEh and FFh send them; it is none where the value is the same as before. CiA 301 leaves that open. By default
     /// it is none: the device knows which of its values are events, and says so by
-    /// [`Node::value_changed`](crate::Node::value_changed).
+    /// [`Services::changed`].
     fn write_is_event(&mut self, node: &Services<'_>, entry: &Entry) -> bool {
         let _ = (node, entry);
         false
@@ -105,7 +107,7 @@ pub trait Application {
     /// place for a manual that checks in another order than CiA 301 servers do.
     ///
     /// # Errors
-    /// The abort code that the client gets; by default those of [`Objects::check_write`].
+    /// The abort code that the client gets; by default those of [`Objects::check_write`](crate::Objects::check_write).
     fn check_write(
         &mut self,
         node: &Services<'_>,
@@ -177,7 +179,7 @@ pub trait Application {
 
     /// A stored value has no place any more, since an update has changed the dictionary: there is no such entry, it is not
     /// stored now, or it cannot have this value. The last of these is an error of the device too
-    /// ([`Error::LOST_PARAMETERS`](crate::Error::LOST_PARAMETERS)), and the entry has its default.
+    /// ([`EmcyError::LOST_PARAMETERS`](crate::EmcyError::LOST_PARAMETERS)), and the entry has its default.
     fn stored_value_dropped(&mut self, node: &mut Services<'_>, index: Index, sub_index: SubIndex) {
         let _ = (node, index, sub_index);
     }
@@ -232,11 +234,11 @@ pub trait Application {
     }
 
     /// What follows from a serious error of communication: the guarding by the master or the heartbeat of another node is
-    /// missing ([`Error::HEARTBEAT`]), or the bus is off ([`Error::BUS_OFF`]). `prescribed` is what 1029h sub-index 01h says.
+    /// missing ([`EmcyError::HEARTBEAT`]), or the bus is off ([`EmcyError::BUS_OFF`]). `prescribed` is what 1029h sub-index 01h says.
     fn reaction(
         &mut self,
         node: &mut Services<'_>,
-        error: Error,
+        error: EmcyError,
         prescribed: Option<NmtState>,
     ) -> Option<NmtState> {
         let _ = (node, error);
@@ -315,10 +317,10 @@ pub trait Application {
         let _ = (node, node_id, state);
     }
 
-    /// Whether an error that the services of the node find ([`Error`]'s constants) is one of the device: it is told by EMCY,
+    /// Whether an error that the services of the node find ([`EmcyError`]'s constants) is one of the device: it is told by EMCY,
     /// and is in 1001h and 1003h. The place for a manual whose error register follows the device alone. The answer for an
     /// error is always the same.
-    fn counts(&mut self, error: Error) -> bool {
+    fn counts(&mut self, error: EmcyError) -> bool {
         let _ = error;
         true
     }

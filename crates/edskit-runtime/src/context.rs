@@ -118,7 +118,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Whether frames are being lost.
     fn overrun_found(&mut self, is_present: bool) {
         let was_present = core::mem::replace(&mut self.node.core.has_overrun, is_present);
-        self.found(crate::Error::CAN_OVERRUN, was_present, is_present, [0; 5]);
+        self.found(crate::EmcyError::CAN_OVERRUN, was_present, is_present, [0; 5]);
     }
 
     /// When there will be something to do.

@@ -8,7 +8,7 @@ use crate::context::Context;
 use crate::ring::Ring;
 use crate::services::Services;
 use crate::{Instant, Microseconds, Pattern};
-use edskit_types::{AbortCode, CanId, CobId, Index};
+use edskit_types::{AbortCode, CanId, CobId, EmergencyCode, ErrorRegister, Index};
 
 /// How many errors of the device, and groups of parameters that were lost, can be present at once.
 const MOST_ERRORS: usize = 32;
@@ -18,39 +18,54 @@ const INHIBIT_TIME: Index = Index(0x1015);
 
 /// A kind of error: its code and its bits of the error register (CiA 301 v4.2, 7.2.7.1 and 7.5.2.2).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Error {
-    /// The emergency error code, which is not 0000h.
+pub struct EmcyError {
+    /// The emergency error code, which is not 0000h: an [`EmergencyCode`].
     pub code: u16,
-    /// The bits of the error register 1001h; bit 0, generic error, is added to all.
+    /// The bits of the error register 1001h, as in [`ErrorRegister`]; bit 0, generic error, is added to all.
     pub register: u8,
 }
 
-impl Error {
+impl EmcyError {
     /// 6300h: stored parameters could not be loaded, the defaults are used.
-    pub const LOST_PARAMETERS: Self = Self { code: 0x6300, register: 0 };
+    pub const LOST_PARAMETERS: Self = Self::new(EmergencyCode::DATA_SET, ErrorRegister(0));
     /// 8110h: frames were lost because they could not be sent or taken in time.
-    pub const CAN_OVERRUN: Self = Self { code: 0x8110, register: Self::COMMUNICATION };
+    pub const CAN_OVERRUN: Self = Self::of_communication(EmergencyCode::CAN_OVERRUN);
     /// 8120h: the CAN controller is error passive.
-    pub const ERROR_PASSIVE: Self = Self { code: 0x8120, register: Self::COMMUNICATION };
+    pub const ERROR_PASSIVE: Self = Self::of_communication(EmergencyCode::ERROR_PASSIVE);
     /// 8130h: a heartbeat or the guarding by the master is missing.
-    pub const HEARTBEAT: Self = Self { code: 0x8130, register: Self::COMMUNICATION };
+    pub const HEARTBEAT: Self = Self::of_communication(EmergencyCode::HEARTBEAT);
     /// 8100h: the bus is off. It cannot be told by a message, and so is none of those that are listed; devices are told of it
     /// ([`Application::reaction`](crate::Application::reaction)).
-    pub const BUS_OFF: Self = Self { code: 0x8100, register: Self::COMMUNICATION };
+    pub const BUS_OFF: Self = Self::of_communication(EmergencyCode::COMMUNICATION);
     /// 8140h: the CAN controller has recovered from bus-off.
-    pub const BUS_OFF_RECOVERED: Self = Self { code: 0x8140, register: Self::COMMUNICATION };
+    pub const BUS_OFF_RECOVERED: Self = Self::of_communication(EmergencyCode::BUS_OFF_RECOVERED);
     /// 8210h: an RPDO was shorter than its mapping.
-    pub const PDO_LENGTH: Self = Self { code: 0x8210, register: Self::COMMUNICATION };
+    pub const PDO_LENGTH: Self = Self::of_communication(EmergencyCode::PDO_LENGTH);
     /// 8240h: a SYNC message had an unexpected length.
-    pub const SYNC_LENGTH: Self = Self { code: 0x8240, register: Self::COMMUNICATION };
+    pub const SYNC_LENGTH: Self = Self::of_communication(EmergencyCode::SYNC_LENGTH);
     /// 8250h: an RPDO has not come within its event time.
-    pub const RPDO_TIME_OUT: Self = Self { code: 0x8250, register: Self::COMMUNICATION };
+    pub const RPDO_TIME_OUT: Self = Self::of_communication(EmergencyCode::RPDO_TIME_OUT);
 
-    /// The bit of the error register for errors of communication.
-    pub const COMMUNICATION: u8 = 1 << 4;
-    const GENERIC: u8 = 1;
     /// What stands where there is no error.
     const NONE: Self = Self { code: 0, register: 0 };
+
+    /// An error of the device.
+    ///
+    /// ```
+    /// use edskit_runtime::EmcyError;
+    /// use edskit_runtime::types::{EmergencyCode, ErrorRegister};
+    ///
+    /// const TOO_HOT: EmcyError = EmcyError::new(EmergencyCode::DEVICE_TEMPERATURE.with(0x10), ErrorRegister::TEMPERATURE);
+    /// assert_eq!((TOO_HOT.code, TOO_HOT.register), (0x4210, 0x08));
+    /// ```
+    #[must_use]
+    pub const fn new(code: EmergencyCode, register: ErrorRegister) -> Self {
+        Self { code: code.0, register: register.0 }
+    }
+
+    const fn of_communication(code: EmergencyCode) -> Self {
+        Self::new(code, ErrorRegister::COMMUNICATION)
+    }
 }
 
 /// What an EMCY message says.
@@ -67,12 +82,12 @@ pub struct Emergency {
 /// An error that is present. `source` tells errors of one kind apart: the number of a group or a sensor, say.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Present {
-    error: Error,
+    error: EmcyError,
     source: u16,
 }
 
 impl Present {
-    const NONE: Self = Self { error: Error::NONE, source: 0 };
+    const NONE: Self = Self { error: EmcyError::NONE, source: 0 };
 }
 
 #[derive(Debug)]
@@ -105,27 +120,30 @@ impl Emcy {
 
     /// The error register that follows from what is present.
     fn register(&self) -> u8 {
-        let present = self.present.iter().filter(|present| present.error != Error::NONE);
+        let present = self.present.iter().filter(|present| present.error != EmcyError::NONE);
         let own = (self.missing > 0 || self.overruns > 0 || self.others > 0)
-            .then_some(Error::COMMUNICATION | Error::GENERIC);
-        present.fold(own.unwrap_or(0), |all, present| all | present.error.register | Error::GENERIC)
+            .then_some(ErrorRegister::COMMUNICATION.and(ErrorRegister::GENERIC).0);
+        present.fold(own.unwrap_or(0), |all, present| all | present.error.register | ErrorRegister::GENERIC.0)
     }
 
     /// How many errors of this kind the services have found.
-    fn count(&mut self, error: Error) -> &mut u16 {
+    fn count(&mut self, error: EmcyError) -> &mut u16 {
         match error {
-            Error::HEARTBEAT => &mut self.missing,
-            Error::CAN_OVERRUN => &mut self.overruns,
+            EmcyError::HEARTBEAT => &mut self.missing,
+            EmcyError::CAN_OVERRUN => &mut self.overruns,
             _ => &mut self.others,
         }
     }
 
     /// What the red indicator shows: of several errors the one that stands first here.
     pub(crate) fn pattern(&self, bus_has_errors: bool) -> Pattern {
-        let has = |error: Error| self.present.iter().any(|present| present.error == error);
-        if self.missing > 0 || has(Error::HEARTBEAT) {
+        let has = |error: EmcyError| self.present.iter().any(|present| present.error == error);
+        if self.missing > 0 || has(EmcyError::HEARTBEAT) {
             Pattern::DoubleFlash
-        } else if bus_has_errors || self.overruns > 0 || has(Error::ERROR_PASSIVE) || has(Error::CAN_OVERRUN)
+        } else if bus_has_errors
+            || self.overruns > 0
+            || has(EmcyError::ERROR_PASSIVE)
+            || has(EmcyError::CAN_OVERRUN)
         {
             Pattern::SingleFlash
         } else {
@@ -140,16 +158,16 @@ impl Services<'_> {
     ///
     /// There is room for 32 errors of the device at once, whatever the services of the node find besides. A further one is
     /// told each time that it is raised, and is not in the error register afterwards.
-    pub fn raise(&mut self, error: Error, source: u16, info: [u8; 5]) {
+    pub fn raise(&mut self, error: EmcyError, source: u16, info: [u8; 5]) {
         if self.list(error, source) {
-            let emergency = self.compose(error.code, error.register | Error::GENERIC, info);
+            let emergency = self.compose(error.code, error.register | ErrorRegister::GENERIC.0, info);
             self.remember(error.code, info);
             self.send_emergency(emergency);
         }
     }
 
     /// An error of the device has gone.
-    pub fn clear(&mut self, error: Error, source: u16) {
+    pub fn clear(&mut self, error: EmcyError, source: u16) {
         if self.unlist(error, source) {
             let emergency = self.compose(0, 0, [0; 5]);
             self.send_emergency(emergency);
@@ -182,7 +200,7 @@ impl Services<'_> {
     }
 
     /// Puts an error among those that are present; false where it is there already.
-    fn list(&mut self, error: Error, source: u16) -> bool {
+    fn list(&mut self, error: EmcyError, source: u16) -> bool {
         let is_it = |present: &Present| present.error.code == error.code && present.source == source;
         let present = &mut self.core.emcy.present;
         if present.iter().any(is_it) {
@@ -195,7 +213,7 @@ impl Services<'_> {
     }
 
     /// Takes an error from those that are present; false where it is not there.
-    fn unlist(&mut self, error: Error, source: u16) -> bool {
+    fn unlist(&mut self, error: EmcyError, source: u16) -> bool {
         let wanted = Present { error, source };
         let present = self.core.emcy.present.iter_mut().find(|present| **present == wanted);
         present.map(|present| *present = Present::NONE).is_some()
@@ -256,14 +274,14 @@ impl Services<'_> {
 
 impl<A: Application + ?Sized> Context<'_, A> {
     /// The node itself has found an error that is in its list, as it is not one of a service.
-    pub(crate) fn raise(&mut self, error: Error, source: u16, info: [u8; 5]) {
+    pub(crate) fn raise(&mut self, error: EmcyError, source: u16, info: [u8; 5]) {
         if self.app.counts(error) && self.node.list(error, source) {
             self.occurred(error, info);
         }
     }
 
     /// Such an error has gone.
-    pub(crate) fn clear(&mut self, error: Error, source: u16) {
+    pub(crate) fn clear(&mut self, error: EmcyError, source: u16) {
         if self.node.unlist(error, source) {
             self.tell(0, 0, [0; 5]);
         }
@@ -271,7 +289,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
 
     /// A service finds an error present or not, which it has found so or not before.
     #[inline(never)]
-    pub(crate) fn found(&mut self, error: Error, was_present: bool, is_present: bool, info: [u8; 5]) {
+    pub(crate) fn found(&mut self, error: EmcyError, was_present: bool, is_present: bool, info: [u8; 5]) {
         if was_present == is_present || !self.app.counts(error) {
             return;
         }
@@ -286,9 +304,9 @@ impl<A: Application + ?Sized> Context<'_, A> {
     }
 
     #[inline(never)]
-    fn occurred(&mut self, error: Error, info: [u8; 5]) {
+    fn occurred(&mut self, error: EmcyError, info: [u8; 5]) {
         self.node.remember(error.code, info);
-        self.tell(error.code, error.register | Error::GENERIC, info);
+        self.tell(error.code, error.register | ErrorRegister::GENERIC.0, info);
     }
 
     /// Tells by a message that an error has occurred, or with the code 0000h that one has gone.

@@ -1,7 +1,7 @@
 //! What the node does after a serious error of communication: 1029h (CiA 301 v4.2, 7.5.2.32).
 
 use crate::Application;
-use crate::Error;
+use crate::EmcyError;
 use crate::context::Context;
 use crate::services::Services;
 use edskit_types::{AbortCode, Index, NmtState};
@@ -42,7 +42,7 @@ impl Services<'_> {
 
 impl<A: Application + ?Sized> Context<'_, A> {
     /// A heartbeat, the master's guarding, or the bus itself is gone.
-    pub(crate) fn react_to_communication_error(&mut self, error: Error) {
+    pub(crate) fn react_to_communication_error(&mut self, error: EmcyError) {
         let prescribed = self.node.error_behaviour(COMMUNICATION);
         if let Some(state) = self.app.reaction(&mut self.node, error, prescribed) {
             self.enter(state);

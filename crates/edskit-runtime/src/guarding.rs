@@ -4,7 +4,7 @@ use crate::Application;
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
-use crate::{Error, Instant, Microseconds};
+use crate::{EmcyError, Instant, Microseconds};
 use edskit_types::{AbortCode, CanId, Index};
 
 const GUARD_TIME: Index = Index(0x100C);
@@ -53,7 +53,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Whether the requests of the master are missing.
     fn master_found(&mut self, is_missing: bool) {
         let was_missing = core::mem::replace(&mut self.node.core.guarding.is_missing, is_missing);
-        self.found(Error::HEARTBEAT, was_missing, is_missing, [0; 5]);
+        self.found(EmcyError::HEARTBEAT, was_missing, is_missing, [0; 5]);
     }
 
     /// Guarding ends with all it had: there is one error control protocol at a time (7.2.8.3).
@@ -86,7 +86,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         if self.node.core.guarding.life.is_due(self.node.now) {
             self.node.core.guarding.life = Timer::OFF;
             self.master_found(true);
-            self.react_to_communication_error(Error::HEARTBEAT);
+            self.react_to_communication_error(EmcyError::HEARTBEAT);
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::Application;
 use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
-use crate::{Error, Frame, Instant, Microseconds};
+use crate::{EmcyError, Frame, Instant, Microseconds};
 use edskit_types::{AbortCode, CanId, Index, NmtState, NodeId, SubIndex};
 
 /// What is known of a node whose heartbeat is monitored: an entry of 1016h.
@@ -67,7 +67,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         let place = usize::from(sub_index.0).checked_sub(1);
         let Some(consumer) = place.and_then(|place| self.node.consumers.get_mut(place)) else { return };
         let was_missing = core::mem::replace(consumer, new).is_missing;
-        self.found(Error::HEARTBEAT, was_missing, false, [0; 5]);
+        self.found(EmcyError::HEARTBEAT, was_missing, false, [0; 5]);
     }
 
     /// A frame with the identifier of a heartbeat.
@@ -86,7 +86,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         }
         let is_new = consumer.state.replace(state) != Some(state);
         let was_missing = core::mem::take(&mut consumer.is_missing);
-        self.found(Error::HEARTBEAT, was_missing, false, [0; 5]);
+        self.found(EmcyError::HEARTBEAT, was_missing, false, [0; 5]);
         if is_new {
             self.app.remote_state(&mut self.node, node_id, Some(state));
         }
@@ -101,9 +101,9 @@ impl<A: Application + ?Sized> Context<'_, A> {
             consumer.timer = Timer::OFF;
             consumer.state = None;
             let was_missing = core::mem::replace(&mut consumer.is_missing, true);
-            self.found(Error::HEARTBEAT, was_missing, true, [node_id.get(), 0, 0, 0, 0]);
+            self.found(EmcyError::HEARTBEAT, was_missing, true, [node_id.get(), 0, 0, 0, 0]);
             self.app.remote_state(&mut self.node, node_id, None);
-            self.react_to_communication_error(Error::HEARTBEAT);
+            self.react_to_communication_error(EmcyError::HEARTBEAT);
         }
     }
 }

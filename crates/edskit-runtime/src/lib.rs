@@ -7,10 +7,10 @@
 //! | idea | items |
 //! |---|---|
 //! | the node, and what drives it | [`Node`], [`Settings`], [`Commissioning`], [`Frame`], [`Instant`] |
-//! | the object dictionary | [`Dictionary`], [`Objects`], [`Handle`], [`Table`], [`Entry`], [`Flags`] |
+//! | the object dictionary | [`Dictionary`], [`Objects`], [`Handle`], [`Constant`], [`Key`], [`Table`], [`Entry`], [`Flags`] |
 //! | what a device adds | [`Application`], [`Storage`] |
 //! | what a main loop drives | [`Device`], [`NodeDevice`] |
-//! | errors | [`Error`], [`Emergency`] |
+//! | errors | [`EmcyError`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
 //! | for SDO clients too | [`Crc`] |
 //!
@@ -19,7 +19,8 @@
 //! ```
 //! use edskit_runtime::types::{AbortCode, CanId, DataType, Index, SubIndex};
 //! use edskit_runtime::{
-//!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Memory, NoStorage, Node, Parts, Position, Services,
+//!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Key, Memory, NoStorage, Node, Parts, Position,
+//!     Services,
 //!     Settings, Table,
 //! };
 //!
@@ -37,7 +38,7 @@
 //!     dummies: 0,
 //!     fingerprint: 1,
 //! };
-//! const TEMPERATURE: Handle<i16> = Handle::new(Position(2));
+//! const TEMPERATURE: Handle<i16> = Handle::new(Position(2), Key::new(0x2000, 0));
 //!
 //! const fn entry(index: u16, data_type: DataType, flags: Flags, offset: u16, size: u16) -> Entry {
 //!     Entry { index: Index(index), sub_index: SubIndex(0), data_type, flags, offset, size }
@@ -56,8 +57,10 @@
 //! struct Sensor;
 //!
 //! impl Application for Sensor {
-//!     fn before_read(&mut self, node: &mut Services<'_>, _: &Entry) -> Result<(), AbortCode> {
-//!         node.objects.set(TEMPERATURE, 215);
+//!     fn before_read(&mut self, node: &mut Services<'_>, entry: &Entry) -> Result<(), AbortCode> {
+//!         if entry.is(TEMPERATURE) {
+//!             node.objects.set(TEMPERATURE, 215);
+//!         }
 //!         Ok(())
 //!     }
 //! }
@@ -125,9 +128,11 @@ pub use commissioning::{Commissioning, LssAnswer, LssRequest};
 pub use crc::Crc;
 pub use device::{Device, NodeDevice};
 pub use dictionary::{
-    Dictionary, Entry, Flags, Handle, Limits, Memory, Objects, Parts, Position, StorageGroup, Table, Value,
+    Constant, Dictionary, Domain, Entry, Flags, Handle, Key, Limits, Memory, Objects, OctetString, Octets,
+    Parts, Position, Readable, StorageGroup, Table, Text, TimeDifference, UnicodeString, Value,
+    VisibleString, WriteError,
 };
-pub use emcy::{Emergency, Error};
+pub use emcy::{EmcyError, Emergency};
 pub use frame::{Frame, MOST_DATA};
 pub use heartbeat_consumer::HeartbeatConsumer;
 pub use led::{Leds, Pattern};

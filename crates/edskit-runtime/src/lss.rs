@@ -4,7 +4,7 @@ use crate::Application;
 use crate::commissioning::SOURCE;
 use crate::context::Context;
 use crate::records::{Record, StorageError};
-use crate::{Commissioning, Error, Frame, LssAnswer, LssRequest, MOST_DATA, Reset, Settings};
+use crate::{Commissioning, EmcyError, Frame, LssAnswer, LssRequest, MOST_DATA, Reset, Settings};
 use edskit_types::{Bitrate, CanId, Index, NodeId};
 
 /// The identifier of answers, 7E4h.
@@ -270,7 +270,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         // The complement tells a torn record from a right one.
         self.node.storage.write(Record::Lss, &[node_id, !node_id, low, high, !low, !high])?;
         self.node.storage.commit(Record::Lss)?;
-        self.clear(Error::LOST_PARAMETERS, SOURCE);
+        self.clear(EmcyError::LOST_PARAMETERS, SOURCE);
         Ok(())
     }
 }

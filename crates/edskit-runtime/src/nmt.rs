@@ -8,7 +8,7 @@ use crate::emcy::Emcy;
 use crate::guarding::Guarding;
 use crate::heartbeat::Producer;
 use crate::heartbeat_consumer::HeartbeatConsumer;
-use crate::{Error, Frame, Record, Reset};
+use crate::{EmcyError, Frame, Record, Reset};
 use edskit_types::{CanId, Index, NmtCommand, NmtState, NodeId};
 
 /// What the device does when it has booted up (CiA 302-2).
@@ -34,7 +34,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         self.initialise(Reset::Node);
         if is_lost {
             self.app.storage_failed(&mut self.node, Record::Lss);
-            self.raise(Error::LOST_PARAMETERS, SOURCE, [0; 5]);
+            self.raise(EmcyError::LOST_PARAMETERS, SOURCE, [0; 5]);
         }
     }
 

@@ -183,10 +183,10 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
     /// TPDO, and so on.
     ///
     /// ```
-    /// use edskit_runtime::{Dictionary, Error, Instant, Node, Storage};
+    /// use edskit_runtime::{Dictionary, EmcyError, Instant, Node, Storage};
     ///
     /// fn too_hot<D: Dictionary, S: Storage>(node: &mut Node<D, S>, now: Instant) {
-    ///     node.services(now).raise(Error { code: 0x4210, register: 1 << 3 }, 0, [0; 5]);
+    ///     node.services(now).raise(EmcyError { code: 0x4210, register: 1 << 3 }, 0, [0; 5]);
     /// }
     /// ```
     pub fn services(&mut self, now: Instant) -> Services<'_> {

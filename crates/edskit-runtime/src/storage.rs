@@ -5,7 +5,7 @@ use crate::access::is_communication;
 use crate::context::Context;
 use crate::crc::Crc;
 use crate::dictionary::{Entry, Flags, Position, StorageGroup, Table};
-use crate::emcy::Error;
+use crate::emcy::EmcyError;
 use crate::records::{Reader, Record, StorageError, Writer};
 use crate::services::Services;
 use edskit_types::{AbortCode, Index, SubIndex};
@@ -34,7 +34,7 @@ impl Services<'_> {
     /// [`StorageError`] if the memory does not take them; what was stored before then stays.
     pub fn save(&mut self, group: StorageGroup) -> Result<(), StorageError> {
         self.save_group(group)?;
-        self.clear(Error::LOST_PARAMETERS, group.0.into());
+        self.clear(EmcyError::LOST_PARAMETERS, group.0.into());
         Ok(())
     }
 
@@ -44,7 +44,7 @@ impl Services<'_> {
     /// [`StorageError`] if the memory fails.
     pub fn forget(&mut self, group: StorageGroup) -> Result<(), StorageError> {
         self.storage.erase(Record::Values(group))?;
-        self.clear(Error::LOST_PARAMETERS, group.0.into());
+        self.clear(EmcyError::LOST_PARAMETERS, group.0.into());
         Ok(())
     }
 
@@ -114,7 +114,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
                 };
                 if let Err([a, b, c, d]) = loaded {
                     self.app.storage_failed(&mut self.node, Record::Values(group));
-                    self.raise(Error::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
+                    self.raise(EmcyError::LOST_PARAMETERS, u16::from(group.0), [group.0, a, b, c, d]);
                 }
             }
         }

@@ -3,7 +3,7 @@
 use crate::Application;
 use crate::context::Context;
 use crate::time::Timer;
-use crate::{Error, Frame, Instant, Microseconds};
+use crate::{EmcyError, Frame, Instant, Microseconds};
 use edskit_types::{AbortCode, CanId, CobId, Index};
 
 const PERIOD: Index = Index(0x1006);
@@ -131,7 +131,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Whether the last message had a wrong length.
     pub(crate) fn sync_length_found(&mut self, is_wrong: bool, length: u8) {
         let was_wrong = core::mem::replace(&mut self.node.core.sync.has_wrong_length, is_wrong);
-        self.found(Error::SYNC_LENGTH, was_wrong, is_wrong, [length, 0, 0, 0, 0]);
+        self.found(EmcyError::SYNC_LENGTH, was_wrong, is_wrong, [length, 0, 0, 0, 0]);
     }
 
     /// Sends the message when it is due, or as soon after that as the queue has room, which is told.

@@ -57,6 +57,45 @@ fn inputs_and_output_are_named_after_the_eds() {
 }
 
 #[test]
+fn a_side_file_is_noticed_when_it_is_made() {
+    for (eds, place) in [
+        ("eds/Pump.eds", "eds"),
+        ("./eds/Pump.eds", "./eds"),
+        ("../Pump.eds", ".."),
+        ("/pumps/Pump.eds", "/pumps"),
+        ("Pump.eds", "Pump.toml"),
+        ("./Pump.eds", "Pump.toml"),
+    ] {
+        assert_eq!(place_of_later(Path::new(eds), Path::new("Pump.toml")), Path::new(place), "{eds}");
+    }
+}
+
+#[test]
+fn two_files_of_one_name_do_not_take_each_others_place() {
+    let folder = Folder::new("twice");
+    fs::create_dir_all(folder.0.join("other")).unwrap();
+    let eds = folder.write("Drive.eds", EDS);
+    let other = folder.write("other/drive.eds", &EDS.replace("1017", "2017"));
+    assert!(!folder.run(&without_rules(), &eds).contains("error"));
+    let code = || fs::read_to_string(folder.0.join("out/Drive.rs")).unwrap();
+    let first = code();
+    let told = folder.run(&without_rules(), &other);
+    let place =
+        "<folder>/other/drive.eds: <folder>/out/drive.rs is the dictionary of <folder>/Drive.eds already";
+    assert!(told.contains(&format!("cargo::error={place}; give one of them a name")), "{told}");
+    assert!(!folder.0.join("out/drive.rs").exists());
+    assert!(!folder.run(&without_rules().name("Other"), &other).contains("error"));
+    assert!(folder.0.join("out/Other.rs").exists());
+    // The same file again, changed meanwhile, is no other one.
+    folder.write("Drive.eds", &EDS.replace("1017", "3017"));
+    assert!(!folder.run(&without_rules(), &eds).contains("error"));
+    assert_ne!(code(), first);
+    // Nor is there anything to lose where both are equal.
+    let equal = folder.write("other/Drive.eds", &fs::read_to_string(&eds).unwrap());
+    assert!(!folder.run(&without_rules(), &equal).contains("error"));
+}
+
+#[test]
 fn settings_name_what_is_written() {
     let folder = Folder::new("settings");
     let eds = folder.write("a.eds", EDS);

@@ -5,7 +5,7 @@ mod implicit;
 mod standard;
 
 use super::value::Bytes;
-use super::{MOST_ENTRIES, Source, limits};
+use super::{Array, MOST_ENTRIES, Source, limits};
 use crate::{InputFile, Problem, SideFile};
 use edskit_lint::Severity;
 use edskit_model::{Datasheet, Description, DictionaryEntry, Object, Span};
@@ -132,6 +132,8 @@ fn described(
     };
     let has_subs = object.compact_count() > 0 || object.sub_objects().len() > 0;
     let object_name = object.parameter_name().filter(|_| has_subs).map(|name| name.text().into_owned());
+    let is_array =
+        has_subs && (object.compact_count() > 0 || object.object_code() == Some(ObjectCode::Array));
     let name_span = description.name_span();
     let source = Source {
         file: InputFile::Eds,
@@ -142,6 +144,9 @@ fn described(
         object: object_name,
         access,
         unit: side_file.unit(entry.index, entry.sub_index).map(str::to_owned),
+        array: is_array.then_some(Array::Object),
+        given_name: None,
+        given_object_name: None,
     };
     Item {
         index: entry.index,

@@ -32,7 +32,7 @@ impl Groups {
 
     /// The group of an entry.
     pub(super) fn group(&self, item: &Item, entry: &Entry, side_file: &SideFile) -> Option<StorageGroup> {
-        if !entry.flags.has(Flags::VARIABLE) {
+        if !entry.flags.has(Flags::VARIABLE) || entry.flags.has(Flags::GIVEN) {
             return None;
         }
         if let Some(said) = side_file.storage(item.index, item.sub_index) {

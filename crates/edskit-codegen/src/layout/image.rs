@@ -23,7 +23,9 @@ impl Images {
     pub(super) fn place(&mut self, item: &Item, side_file: &SideFile) -> (Entry, bool) {
         let capacity = side_file.capacity(item.index, item.sub_index).filter(|_| item.data_type.is_string());
         let is_received = side_file.is_received(item.index, item.sub_index) && can_be_carried(item);
-        let is_said = side_file.is_variable(item.index, item.sub_index) || is_received || capacity.is_some();
+        let is_given = side_file.is_given(item.index, item.sub_index);
+        let is_changed = side_file.is_variable(item.index, item.sub_index) || is_given;
+        let is_said = is_changed || is_received || capacity.is_some();
         let is_variable = is_variable(item, is_said);
         let mut flags = rights(item);
         if is_received {
@@ -55,6 +57,9 @@ impl Images {
         }
         if item.default.as_ref().is_some_and(|default| default.is_node_relative) {
             flags = flags.and(Flags::NODE_RELATIVE);
+        }
+        if is_given {
+            flags = flags.and(Flags::GIVEN);
         }
         if side_file.is_optional(item.index, item.sub_index) {
             flags = flags.and(Flags::OPTIONAL);

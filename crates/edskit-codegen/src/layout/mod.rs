@@ -9,6 +9,7 @@ mod image;
 mod limits;
 mod mappings;
 mod settings;
+mod statements;
 mod value;
 
 #[cfg(test)]
@@ -23,7 +24,6 @@ use edskit_lint::Severity;
 use edskit_model::{Datasheet, KeyName, Position as TextPosition, SectionKind, Span};
 use edskit_runtime::{Entry, Flags, Limits, Position, Settings, Table};
 use edskit_types::{AccessType, DataType};
-use gather::Item;
 use image::Images;
 
 /// The most entries that a dictionary can have: positions are 16 bits wide.
@@ -96,6 +96,21 @@ pub struct Source {
     pub access: AccessType,
     /// The unit, where the side-file names one.
     pub unit: Option<String>,
+    /// The array that the entry belongs to.
+    pub array: Option<Array>,
+    /// What the side-file calls the entry.
+    pub given_name: Option<String>,
+    /// What the side-file calls the whole object, where the entry is a sub-object.
+    pub given_object_name: Option<String>,
+}
+
+/// An array of sub-objects, which are numbered rather than named.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Array {
+    /// The whole object: it is an ARRAY, or its sub-objects are compact.
+    Object,
+    /// Several sub-objects that one statement of the side-file adds, which stands there.
+    Added(Span),
 }
 
 impl Layout {
@@ -137,19 +152,23 @@ impl Layout {
 /// What makes a dictionary impossible: more entries or bytes than can be addressed, and a side-file that contradicts the
 /// EDS.
 pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Problem>> {
-    let gather::Gathered { items, mut notes, mut lost, mut assumptions, mut errors } =
+    let gather::Gathered { mut items, mut notes, mut lost, mut assumptions, mut errors } =
         gather::items(sheet, side_file);
-    notes.extend(unused(&items, side_file));
     assumptions.extend(assumptions::misspelt(sheet));
-    for problems in [&mut notes, &mut lost, &mut assumptions] {
-        // In the order of the files, and once where many compact sub-objects are described together.
-        problems.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
-        problems.dedup();
+    for problems in [&mut lost, &mut assumptions] {
+        in_order(problems);
     }
     if items.len() > MOST_ENTRIES {
         let message = format!("this is one entry more than the {MOST_ENTRIES} that a dictionary can have");
         errors.extend(items.last().map(|item| problem_at(sheet, side_file, &item.source, message)));
         return Err(errors);
+    }
+    for item in &mut items {
+        let (name, object_name) = side_file.names(item.index, item.sub_index);
+        // The name of a variable's object is its own.
+        let is_sub_object = item.source.object.is_some();
+        item.source.given_name = name.or(object_name.filter(|_| !is_sub_object)).map(str::to_owned);
+        item.source.given_object_name = object_name.filter(|_| is_sub_object).map(str::to_owned);
     }
     let groups = groups::Groups::of(&items);
     let mut images = Images::default();
@@ -173,13 +192,17 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
         }
         entries.push(entry);
     }
+    let statements = statements::check(&items, &entries, side_file);
+    notes.extend(statements.without_effect);
+    errors.extend(statements.contradictions);
+    in_order(&mut notes);
     if !errors.is_empty() {
         return Err(errors);
     }
     let Images { constants, defaults, .. } = images;
     let mappings = mappings::read(&items, sheet.document());
     let settings = settings::read(sheet, &entries, &mappings, &mut assumptions);
-    assumptions.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
+    in_order(&mut assumptions);
     Ok(Layout {
         counts: Counts::of(&entries),
         settings,
@@ -199,23 +222,17 @@ pub fn lay_out(sheet: &Datasheet, side_file: &SideFile) -> Result<Layout, Vec<Pr
     })
 }
 
+/// In the order of the files, and once where many compact sub-objects are described together.
+fn in_order(problems: &mut Vec<Problem>) {
+    problems.sort_by(|a, b| (a.file, a.span, &a.message).cmp(&(b.file, b.span, &b.message)));
+    problems.dedup();
+}
+
 fn problem_at(sheet: &Datasheet, side_file: &SideFile, source: &Source, message: String) -> Problem {
     match source.file {
         InputFile::Eds => Problem::in_eds(sheet.document(), Severity::Error, source.span, message),
         InputFile::SideFile => Problem::in_side_file(&side_file.text, Severity::Error, source.span, message),
     }
-}
-
-/// What the side-file says about entries that the dictionary does not have.
-fn unused(items: &[Item], side_file: &SideFile) -> Vec<Problem> {
-    let is_there = |places: &crate::side_file::Places| {
-        items.iter().any(|item| places.contain(item.index, item.sub_index))
-    };
-    let note = |span| {
-        let message = "the dictionary has no such entry".to_owned();
-        Problem::in_side_file(&side_file.text, Severity::Warning, span, message)
-    };
-    side_file.unused(is_there).into_iter().map(note).collect()
 }
 
 fn product(sheet: &Datasheet) -> Option<String> {

@@ -299,7 +299,77 @@ fn a_side_file_names_what_the_device_changes() {
     assert_eq!(variable, [true, true, false, true, false], "a domain lies nowhere");
     assert_eq!(layout.defaults, [&b"\x04\0Pump"[..], &[2], &[2, 0, 0, 0]].concat());
     assert_eq!(entry(&layout, 0x1018, 2).flags, Flags::READ.and(Flags::VARIABLE), "it is not stored");
-    assert_eq!(messages(&layout.notes), ["a.toml:1:53: GEN the dictionary has no such entry"]);
+    let domain = "a.toml:1:45: GEN 2000h is a DOMAIN, whose data the application has: it does not lie in RAM";
+    assert_eq!(messages(&layout.notes), [domain, "a.toml:1:53: GEN the dictionary has no such entry"]);
+}
+
+#[test]
+fn what_is_given_lies_in_ram_and_is_not_stored() {
+    let eds = object("1008", "a", "DataType=9 AccessType=const DefaultValue=Pump")
+        + &object("1018", "b", "ObjectType=9")
+        + &object("1018sub4", "b", "DataType=7 AccessType=ro DefaultValue=2")
+        + &object("1010", "c", "ObjectType=8")
+        + &object("1010sub1", "c", "DataType=7 AccessType=rw");
+    let layout =
+        layout(&eds, "given = ['1008', '1018sub4']\n[capacity]\n'1008' = 9\n[storage]\n'1008' = 4\n");
+    let given = Flags::READ.and(Flags::VARIABLE).and(Flags::GIVEN);
+    assert_eq!((entry(&layout, 0x1008, 0).flags, entry(&layout, 0x1008, 0).size), (given, 9));
+    assert_eq!(entry(&layout, 0x1018, 4).flags, given);
+    assert_eq!(layout.default_of(&entry(&layout, 0x1018, 4)), [2, 0, 0, 0]);
+    assert_eq!(messages(&layout.notes), ["a.toml:5:1: GEN 1008h is given at start, and so it is not stored"]);
+}
+
+#[test]
+fn what_cannot_be_given_is_an_error() {
+    let eds = object("1001", "a", "DataType=5 AccessType=ro")
+        + &object("1014", "b", "DataType=7 AccessType=ro DefaultValue=$NODEID+0x80")
+        + &object("2000", "c", "DataType=6 AccessType=rw")
+        + &object("2001", "d", "DataType=15 AccessType=ro")
+        + &object("2002", "e", "DataType=6 AccessType=ro PDOMapping=1");
+    let reason = |place: &str| {
+        let sheet = Datasheet::parse(eds.as_bytes());
+        let side_file = format!("rpdo = ['2002']\ngiven = ['{place}']\n");
+        let errors = lay_out(&sheet, &SideFile::parse(&side_file).unwrap()).unwrap_err();
+        messages(&errors).join("\n").replace("a.toml:2:10: GEN ", "")
+    };
+    assert_eq!(reason("1001"), "1001h cannot be given: it tells what has happened since power-on");
+    assert_eq!(reason("1014"), "1014h cannot be given: it follows the node-ID");
+    assert_eq!(reason("2000"), "2000h cannot be given: clients write it");
+    assert_eq!(reason("2001"), "2001h cannot be given: it is a DOMAIN, whose data the application has");
+    assert_eq!(reason("2002"), "2002h cannot be given: RPDOs write it");
+}
+
+#[test]
+fn what_has_no_effect_is_told_with_its_place() {
+    let eds = object("2000", "a", "DataType=8 AccessType=rw")
+        + &object("2001", "b", "DataType=6 AccessType=ro")
+        + &object("2002", "c", "DataType=6 AccessType=const DefaultValue=1")
+        + &object("2003", "d", "DataType=9 AccessType=rw DefaultValue=abcdef")
+        + &object("2004", "e", "DataType=15 AccessType=rw");
+    let told =
+        |side_file: &str| messages(&layout(&eds, side_file).notes).join("\n").replace("a.toml:2:1: GEN ", "");
+    let capacity = |place: &str, bytes: u8| told(&format!("[capacity]\n'{place}' = {bytes}\n"));
+    assert_eq!(capacity("2000", 9), "only a text has a capacity: 2000h is REAL32, and has 4 bytes");
+    assert_eq!(capacity("2004", 9), "only a text has a capacity: 2004h is DOMAIN");
+    assert_eq!(capacity("2003", 3), "the default of 2003h has 6 bytes, and so has the text");
+    assert_eq!((capacity("2003", 6), capacity("2000-2004", 9)), (String::new(), String::new()));
+    let storage = |place: &str, group: &str| told(&format!("[storage]\n'{place}' = '{group}'\n"));
+    assert!(
+        storage("2001", "application")
+            .starts_with("clients cannot write 2001h: what it has at the time of a save")
+    );
+    assert_eq!(storage("2001", "none"), "clients cannot write 2001h: it is not stored anyhow");
+    assert_eq!(storage("2002", "application"), "2002h cannot change, and so it is not stored");
+    assert!(storage("2004", "application").starts_with("2004h is a DOMAIN"));
+    assert_eq!(
+        (storage("2000", "none"), storage("2000-2004", "application")),
+        (String::new(), String::new())
+    );
+    assert_eq!(told("variable = [\n'2000']\n"), "clients write 2000h: it lies in RAM anyhow");
+    assert_eq!(
+        told("given = ['2001']\nvariable = [\n'2001']\n").replace("a.toml:3:1: GEN ", ""),
+        "2001h is given at start: it lies in RAM anyhow"
+    );
 }
 
 #[test]
@@ -322,6 +392,8 @@ fn a_side_file_names_what_rpdos_write() {
     assert_eq!(of(0x2002), Flags::READ, "no PDO carries a domain");
     assert_eq!(of(0x2003), Flags::READ.and(Flags::VARIABLE));
     assert_eq!(messages(&layout.notes), ["a.toml:1:22: GEN the dictionary has no such entry"]);
+    let domain = "a.toml:1:9: GEN no PDO carries DOMAIN, the type of 2002h";
+    assert_eq!(messages(&self::layout(&eds, "rpdo = ['2002']\n").notes), [domain]);
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! What the template shows, ready-made.
 
-use super::Naming;
-use crate::identifier::{Named, handle_names};
+use super::handles::{HandleRow, Handles, KeyRow, handles};
+use super::{Naming, file_name};
 use crate::text::{for_comment, for_docs, for_message};
 use crate::{Counts, InputFile, Layout, Place, Source};
 use askama::Template;
 use edskit_runtime::{Entry, Flags, Settings, StorageGroup};
-use edskit_types::{BitRates, Bitrate, DataType, DataTypeKind, MappingEntry, PdoDirection};
+use edskit_types::{BitRates, Bitrate, DataType, MappingEntry, PdoDirection};
 use std::collections::BTreeMap;
 
 /// How many bytes stand in one line of an image.
@@ -33,8 +33,8 @@ pub(super) struct View<'a> {
     bit_rates: String,
     settings: Settings,
     checks: Vec<CheckRow>,
-    has_handles: bool,
-    has_positions: bool,
+    keys: Vec<KeyRow>,
+    imports: String,
     handles: Vec<HandleRow>,
 }
 
@@ -66,21 +66,13 @@ struct CheckRow {
     message: String,
 }
 
-struct HandleRow {
-    docs: String,
-    name: String,
-    /// The Rust type of the value; `None` where only its bytes can be had.
-    value: Option<&'static str>,
-    position: usize,
-}
-
 impl<'a> View<'a> {
     pub(super) fn new(layout: &'a Layout, naming: &'a Naming) -> Self {
-        let handles = handles(layout);
-        let eds = for_comment(&naming.eds);
+        let Handles { keys, rows, imports } = handles(layout);
+        let eds = for_comment(file_name(&naming.eds));
         Self {
             naming,
-            eds_docs: for_docs(&naming.eds).unwrap_or_default(),
+            eds_docs: for_docs(file_name(&naming.eds)).unwrap_or_default(),
             eds,
             product: layout.product.as_deref().and_then(for_docs),
             counts: layout.counts,
@@ -97,9 +89,9 @@ impl<'a> View<'a> {
             bit_rates: bit_rates(layout.settings.bit_rates),
             settings: layout.settings,
             checks: checks(layout, naming),
-            has_handles: handles.iter().any(|handle| handle.value.is_some()),
-            has_positions: !handles.is_empty(),
-            handles,
+            keys,
+            imports: imports.into_iter().collect::<Vec<_>>().join(", "),
+            handles: rows,
         }
     }
 }
@@ -163,12 +155,13 @@ fn base_value(name: &str) -> &'static str {
 }
 
 /// What the names of rights have behind the access.
-const FURTHER: [(&str, Flags); 5] = [
+const FURTHER: [(&str, Flags); 6] = [
     ("TPDO", Flags::TPDO),
     ("RPDO", Flags::RPDO),
     ("NODE_RELATIVE", Flags::NODE_RELATIVE),
     ("LIMITED", Flags::LIMITED),
     ("OPTIONAL", Flags::OPTIONAL),
+    ("GIVEN", Flags::GIVEN),
 ];
 
 /// `CONST`, `RW_TPDO_GROUP_2`.
@@ -263,8 +256,8 @@ fn real(
 fn checks(layout: &Layout, naming: &Naming) -> Vec<CheckRow> {
     let check = |place: &Place, condition: String, text: String| {
         let file = match place.file {
-            InputFile::Eds => &naming.eds,
-            InputFile::SideFile => &naming.side_file,
+            InputFile::Eds => file_name(&naming.eds),
+            InputFile::SideFile => file_name(&naming.side_file),
         };
         CheckRow { condition, message: for_message(&format!("{file}:{}: {text}", place.position)) }
     };
@@ -287,47 +280,4 @@ fn checks(layout: &Layout, naming: &Naming) -> Vec<CheckRow> {
         checks.push(check(&mapping.place, format!("fit(&[{}])", numbers.join(", ")), text));
     }
     checks
-}
-
-fn handles(layout: &Layout) -> Vec<HandleRow> {
-    let rows = || layout.entries.iter().zip(&layout.sources);
-    let named: Vec<Named<'_>> = rows()
-        .map(|(entry, source)| Named {
-            index: entry.index,
-            sub_index: entry.sub_index,
-            object: source.object.as_deref(),
-            name: &source.name,
-        })
-        .collect();
-    let names = handle_names(&named);
-    let handle = |(position, ((entry, source), name)): (usize, ((&Entry, &Source), String))| HandleRow {
-        docs: docs(entry, source),
-        name,
-        value: value_type(entry.data_type),
-        position,
-    };
-    rows().zip(names).enumerate().map(handle).collect()
-}
-
-/// The Rust type of a value; `None` for texts, times and domains.
-fn value_type(data_type: DataType) -> Option<&'static str> {
-    let is_value = matches!(
-        data_type.kind(),
-        DataTypeKind::Boolean | DataTypeKind::Signed | DataTypeKind::Unsigned | DataTypeKind::Real
-    );
-    is_value.then(|| data_type.rust_type())
-}
-
-/// `` `Vendor ID` of `Identity`: `[1018sub1]`, UNSIGNED32, ro. ``
-fn docs(entry: &Entry, source: &Source) -> String {
-    let name = for_docs(&source.name);
-    let object = source.object.as_deref().and_then(for_docs);
-    let title = match (name, object) {
-        (Some(name), Some(object)) => format!("{name} of {object}: "),
-        (Some(name), None) | (None, Some(name)) => format!("{name}: "),
-        (None, None) => String::new(),
-    };
-    let unit =
-        source.unit.as_deref().and_then(for_docs).map_or_else(String::new, |unit| format!(", in {unit}"));
-    format!("{title}`[{}]`, {}, {}{unit}.", source.section, entry.data_type, source.access)
 }

@@ -31,6 +31,16 @@ impl Places {
         self.indices.clone().flat_map(move |index| sub_indices().map(move |sub| (Index(index), sub)))
     }
 
+    /// How many sub-indices of each object they are.
+    pub(crate) fn sub_indices(&self) -> usize {
+        self.sub_indices.len()
+    }
+
+    /// Whether they are all entries of one object, or one entry.
+    pub(crate) fn are_one(&self) -> bool {
+        self.indices.len() == 1 && matches!(self.sub_indices.len(), 1 | 256)
+    }
+
     /// How many entries they could be.
     pub(crate) fn size(&self) -> usize {
         self.indices.len() * self.sub_indices.len()

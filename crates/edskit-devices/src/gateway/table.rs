@@ -1,22 +1,14 @@
 //! The PDOs that follow from a configuration.
 
 use super::configuration::Configuration;
+use super::object::{
+    ANALOG_INPUTS, DIGITAL_INPUTS, DIGITAL_OUTPUTS, SIGNED_ANALOG_OUTPUTS, UNSIGNED_ANALOG_OUTPUTS,
+};
 use super::parameter::Parameter;
 use super::pdo::{Activity, Pdo, Source, Word};
 use super::period::Period;
 use super::signal::{SignalType, Signals};
-use edskit_types::{CanId, Index, NodeId, Party, PdoDirection};
-
-/// The errors of governor and gateway, and the engine status (5.1.1; GW-OD-13).
-const DIGITAL_OUTPUTS: Index = Index(0x2000);
-/// Analogue data without sign (5.1.2; GW-OD-15).
-const UNSIGNED_ANALOG_OUTPUTS: Index = Index(0x2001);
-/// Analogue data with sign (5.1.3; GW-OD-16).
-const SIGNED_ANALOG_OUTPUTS: Index = Index(0x2002);
-/// Switch functions and error flags of sensors (5.1.4; GW-OD-17).
-const DIGITAL_INPUTS: Index = Index(0x2003);
-/// CANopen sensors (5.1.5; GW-OD-18).
-const ANALOG_INPUTS: Index = Index(0x2004);
+use edskit_types::{CanId, NodeId, Party, PdoDirection};
 
 /// The 4 RPDOs and 16 TPDOs of the gateway, as its initialisation finds them (2, 4; GW-EDS-03).
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! One entry of an object dictionary, as it lies in flash.
 
+use super::handle::{Key, Readable};
 use edskit_types::{DataType, Index, SubIndex};
 
 /// What is fixed about one entry: where it is, of what type, who may do what with it, and where its value lies.
@@ -24,6 +25,24 @@ pub struct Entry {
 }
 
 impl Entry {
+    /// Its index and sub-index: what generated constants can be matched with.
+    #[must_use]
+    pub const fn key(&self) -> Key {
+        Key { index: self.index, sub_index: self.sub_index }
+    }
+
+    /// Whether it is the entry of a handle.
+    #[must_use]
+    pub fn is(&self, handle: impl Readable) -> bool {
+        self.key() == handle.entry_key()
+    }
+
+    /// The place of its handle among these, counted from 0.
+    #[must_use]
+    pub fn place_in(&self, handles: &[impl Readable]) -> Option<usize> {
+        handles.iter().position(|handle| self.is(*handle))
+    }
+
     /// An entry that no table holds: what a device tells of a value that it has itself
     /// ([`Application::find`](crate::Application::find)).
     ///
@@ -75,8 +94,11 @@ impl Flags {
     pub const LIMITED: Self = Self(1 << 6);
     /// It exists only where the application says so.
     pub const OPTIONAL: Self = Self(1 << 7);
+    /// The device is given its value at start, from one-time memory, say: no reset changes it.
+    pub const GIVEN: Self = Self(1 << 15);
 
     const GROUP_SHIFT: u16 = 8;
+    const GROUP_MASK: u16 = 0x7F;
 
     /// The flags of both.
     #[must_use]
@@ -93,16 +115,22 @@ impl Flags {
     /// The same, stored in this group.
     #[must_use]
     pub const fn stored_in(self, group: StorageGroup) -> Self {
-        Self(self.0 & !(0xFF << Self::GROUP_SHIFT) | (group.0 as u16) << Self::GROUP_SHIFT)
+        let group = group.0 as u16 & Self::GROUP_MASK;
+        Self(self.0 & !(Self::GROUP_MASK << Self::GROUP_SHIFT) | group << Self::GROUP_SHIFT)
     }
 
     /// The group in which the value is stored over power-off; `None` where it is not.
     #[must_use]
     pub const fn group(self) -> Option<StorageGroup> {
-        match (self.0 >> Self::GROUP_SHIFT) as u8 {
+        match (self.0 >> Self::GROUP_SHIFT & Self::GROUP_MASK) as u8 {
             0 => None,
             group => Some(StorageGroup(group)),
         }
+    }
+
+    /// Whether a reset gives the value of power-on.
+    pub(crate) const fn is_restored(self) -> bool {
+        self.0 & (Self::VARIABLE.0 | Self::GIVEN.0) == Self::VARIABLE.0
     }
 }
 
@@ -135,6 +163,8 @@ mod tests {
     #[test]
     fn groups_and_rights_do_not_touch() {
         let flags = Flags::READ.and(Flags::OPTIONAL).stored_in(StorageGroup(0x7F));
+        assert!(!flags.has(Flags::GIVEN) && flags.and(Flags::GIVEN).group() == Some(StorageGroup(0x7F)));
+        assert_eq!(Flags::GIVEN.group(), None);
         assert_eq!(flags.group(), Some(StorageGroup(0x7F)));
         assert!(flags.has(Flags::READ.and(Flags::OPTIONAL)) && !flags.has(Flags::WRITE));
         assert_eq!(flags.stored_in(StorageGroup::COMMUNICATION).group(), Some(StorageGroup::COMMUNICATION));

@@ -1,16 +1,20 @@
 //! The object dictionary: what generated code and dictionaries built at run time give the node.
 
 mod entry;
+mod handle;
 mod objects;
 mod parts;
 mod table;
+mod text;
 mod value;
 
 pub use entry::{Entry, Flags, StorageGroup};
-pub use objects::{Handle, Objects};
+pub use handle::{Constant, Domain, Handle, Key, Readable};
+pub use objects::Objects;
 pub use parts::{Dictionary, Memory, Parts};
 pub use table::{Limits, Position, Table};
-pub use value::Value;
+pub use text::{OctetString, Octets, Text, UnicodeString, VisibleString, WriteError};
+pub use value::{TimeDifference, Value};
 pub(crate) use value::{copy, raw, unsigned};
 
 #[cfg(test)]

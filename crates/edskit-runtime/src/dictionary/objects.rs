@@ -1,57 +1,20 @@
 //! Reading and writing values.
 
 use super::entry::{Entry, Flags};
+use super::handle::{Handle, Readable};
 use super::table::{Position, Table};
 use super::value::{Value, copy, raw};
-use core::marker::PhantomData;
 use edskit_types::{AbortCode, DataType, Index, NodeId, SubIndex};
 
 /// An object dictionary: what is fixed about it, and its values.
 ///
 /// Rights are those of SDO clients. The device itself may write everything that can change, by [`Objects::set`] and
-/// [`Objects::store`].
+/// [`Objects::store`], which take a [`Handle`].
 #[derive(Debug)]
 pub struct Objects<'a> {
     pub(crate) table: &'a Table<'a>,
     pub(crate) values: &'a mut [u8],
 }
-
-/// An entry whose type is known when the device is compiled: reading it needs no look-up.
-///
-/// Generated dictionaries have one for each entry with a number.
-#[derive(Debug)]
-pub struct Handle<T> {
-    position: Position,
-    value: PhantomData<fn() -> T>,
-}
-
-impl<T> Handle<T> {
-    /// The entry at this position, whose type must be `T`; generated code calls it.
-    #[must_use]
-    pub const fn new(position: Position) -> Self {
-        Self { position, value: PhantomData }
-    }
-
-    /// Where the entry is.
-    #[must_use]
-    pub const fn position(&self) -> Position {
-        self.position
-    }
-}
-
-impl<T> From<Handle<T>> for Position {
-    fn from(handle: Handle<T>) -> Self {
-        handle.position
-    }
-}
-
-impl<T> Clone for Handle<T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Handle<T> {}
 
 impl<'a> Objects<'a> {
     /// A dictionary over these values, which are as long as the defaults of the table.
@@ -67,13 +30,13 @@ impl<'a> Objects<'a> {
 
     /// The value of an entry.
     #[must_use]
-    pub fn get<T: Value>(&self, handle: Handle<T>) -> T {
-        T::from_bytes(self.bytes(handle.position))
+    pub fn get<T: Value>(&self, handle: impl Readable<Value = T>) -> T {
+        T::from_bytes(self.bytes(handle.entry_position()))
     }
 
     /// Gives an entry that can change a value. Limits and rights are not looked at: they bind SDO clients.
     pub fn set<T: Value>(&mut self, handle: Handle<T>, value: T) {
-        value.to_bytes(self.bytes_mut(handle.position));
+        value.to_bytes(self.bytes_mut(handle.position()));
     }
 
     /// The value at `index` and `sub_index`; `None` where there is no such entry.
@@ -87,9 +50,11 @@ impl<'a> Objects<'a> {
         self.table.find(index, SubIndex(sub_index)).ok().map(|position| self.bytes(position))
     }
 
-    /// Gives the entry at `index` and `sub_index` a value, where it exists and can change.
-    pub fn set_value<T: Value>(&mut self, index: Index, sub_index: u8, value: T) {
-        value.to_bytes(self.bytes_mut_at(index, sub_index));
+    /// Gives the entry at `index` and `sub_index` a value, and says whether there is one that can change.
+    pub fn set_value<T: Value>(&mut self, index: Index, sub_index: u8, value: T) -> bool {
+        let bytes = self.bytes_mut_at(index, sub_index);
+        value.to_bytes(bytes);
+        !bytes.is_empty()
     }
 
     #[inline(never)]
@@ -188,15 +153,7 @@ impl<'a> Objects<'a> {
         Ok(())
     }
 
-    /// Gives an entry these bytes, of a text as many as fit. The device itself may do so; SDO clients come by the checks
-    /// first.
-    pub fn store(&mut self, position: Position, data: &[u8]) {
-        if let Some(entry) = self.table.entry(position) {
-            self.put(position, entry, data);
-        }
-    }
-
-    /// The same for an entry that has been found.
+    /// Gives an entry these bytes, of a text as many as fit. Who calls it has checked the length.
     #[inline(never)]
     pub(crate) fn put(&mut self, position: Position, entry: &Entry, data: &[u8]) {
         if entry.has_length() {
@@ -214,10 +171,10 @@ impl<'a> Objects<'a> {
         }
     }
 
-    /// Gives all entries that `is_chosen` their values of power-on, for this node-ID.
+    /// Gives all entries that `is_chosen` their values of power-on, for this node-ID; what the device has been given stays.
     pub(crate) fn restore(&mut self, node_id: Option<NodeId>, is_chosen: impl Fn(Index) -> bool) {
         for (position, entry) in self.table.all() {
-            if entry.flags.has(Flags::VARIABLE) && is_chosen(entry.index) {
+            if entry.flags.is_restored() && is_chosen(entry.index) {
                 self.restore_entry(position, entry, node_id);
             }
         }
@@ -280,7 +237,7 @@ fn rank(data_type: DataType, bits: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dictionary::{Limits, testing::table};
+    use crate::dictionary::{Key, Limits, testing::table};
 
     fn entry(data_type: DataType, flags: Flags, offset: u16, size: u16) -> Entry {
         Entry { index: Index(0x2000), sub_index: SubIndex(0), data_type, flags, offset, size }
@@ -297,9 +254,9 @@ mod tests {
         let mut objects = Objects::new(&table, &mut values);
         objects.restore(None, |_| true);
         assert_eq!(objects.bytes(Position(0)), b"ok");
-        objects.store(Position(0), b"abcdef");
+        objects.put(Position(0), &entries[0], b"abcdef");
         assert_eq!(objects.bytes(Position(0)), b"abcd");
-        objects.store(Position(0), b"");
+        objects.put(Position(0), &entries[0], b"");
         assert_eq!(objects.bytes(Position(0)), b"");
         assert_eq!((values[0], values[7]), (0, 0), "the neighbours are not touched");
     }
@@ -309,7 +266,7 @@ mod tests {
         let entries = [entry(DataType::Unsigned16, Flags::READ, 0, 2)];
         let table = Table { constants: &[0x34, 0x12], ..table(&entries) };
         let mut objects = Objects::new(&table, &mut []);
-        let handle = Handle::<u16>::new(Position(0));
+        let handle = Handle::<u16>::new(Position(0), Key::new(0x2000, 0));
         objects.set(handle, 7);
         assert_eq!(objects.get(handle), 0x1234);
         assert_eq!(objects.check_write(&entries[0], Some(2)), Err(AbortCode::READ_ONLY));
@@ -372,8 +329,8 @@ mod tests {
         let mut values = [0; 6];
         let mut objects = Objects::new(&table, &mut values);
         objects.restore(NodeId::new(5).ok(), |index| index == Index(0x2000));
-        let cob_id = Handle::<u32>::new(Position(0));
-        let time = Handle::<u16>::new(Position(1));
+        let cob_id = Handle::<u32>::new(Position(0), Key::new(0x2000, 0));
+        let time = Handle::<u16>::new(Position(1), Key::new(0x2001, 0));
         assert_eq!((objects.get(cob_id), objects.get(time)), (0x4000_0185, 0));
         objects.restore(NodeId::new(6).ok(), |_| true);
         assert_eq!((objects.get(cob_id), objects.get(time)), (0x4000_0186, 1000));

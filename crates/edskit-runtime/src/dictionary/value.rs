@@ -1,6 +1,8 @@
 //! Rust types of values.
 
-/// A type that values of entries can have: `bool`, the integers, `f32` and `f64`.
+use crate::TimeOfDay;
+
+/// A type that values of entries can have: `bool`, the integers, `f32`, `f64`, [`TimeOfDay`] and [`TimeDifference`].
 ///
 /// Integers of 24, 40, 48 and 56 bits are held by the next larger type.
 pub trait Value: Copy + sealed::Sealed {
@@ -72,6 +74,39 @@ impl Value for f64 {
     }
 }
 
+/// A span of time (CiA 301 v4.2, 7.1.6.6).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct TimeDifference {
+    /// Milliseconds, in 28 bits.
+    pub milliseconds: u32,
+    /// Days.
+    pub days: u16,
+}
+
+/// Four bits behind the milliseconds have no meaning.
+const MILLISECONDS: u32 = 0x0FFF_FFFF;
+
+macro_rules! times {
+    ($($time:ident),*) => {
+        $(
+            impl sealed::Sealed for $time {}
+
+            impl Value for $time {
+                fn from_bytes(bytes: &[u8]) -> Self {
+                    let bits = raw(bytes, false);
+                    Self { milliseconds: bits as u32 & MILLISECONDS, days: (bits >> 32) as u16 }
+                }
+
+                fn to_bytes(self, bytes: &mut [u8]) {
+                    write_raw(u64::from(self.days) << 32 | u64::from(self.milliseconds & MILLISECONDS), bytes);
+                }
+            }
+        )*
+    };
+}
+
+times!(TimeOfDay, TimeDifference);
+
 /// The bits of at most eight bytes, low byte first, sign-extended where asked for.
 #[inline(never)]
 pub(crate) fn raw(bytes: &[u8], is_signed: bool) -> u64 {
@@ -139,6 +174,15 @@ mod tests {
         assert_eq!(f64::from_bytes(&bytes), 1.5);
         assert_eq!(f32::from_bytes(&[0, 0, 0xC0, 0x3F]), 1.5);
         assert!(bool::from_bytes(&[2]) && !bool::from_bytes(&[]));
+    }
+
+    #[test]
+    fn times_have_six_bytes() {
+        let mut bytes = [0; 6];
+        TimeOfDay { milliseconds: 0x1234_5678, days: 9000 }.to_bytes(&mut bytes);
+        assert_eq!(bytes, [0x78, 0x56, 0x34, 2, 0x28, 0x23]);
+        let read = TimeDifference::from_bytes(&[1, 0, 0, 0xF0, 2, 0]);
+        assert_eq!(read, TimeDifference { milliseconds: 1, days: 2 });
     }
 
     proptest! {

@@ -6,7 +6,7 @@ use crate::Application;
 use crate::context::Context;
 use crate::dictionary::raw;
 use crate::time::Timer;
-use crate::{Error, Frame, Instant};
+use crate::{EmcyError, Frame, Instant};
 use edskit_types::{CanId, NmtState};
 
 /// An RPDO at work.
@@ -77,7 +77,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         let was_late = core::mem::replace(&mut rpdo.is_late, is_late);
         let [low, high] = rpdo.parameters.number.to_le_bytes();
-        self.found(Error::RPDO_TIME_OUT, was_late, is_late, [low, high, 0, 0, 0]);
+        self.found(EmcyError::RPDO_TIME_OUT, was_late, is_late, [low, high, 0, 0, 0]);
     }
 
     /// Whether the last frame was too short.
@@ -85,7 +85,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         let was_short = core::mem::replace(&mut rpdo.is_short, is_short);
         let [low, high] = rpdo.parameters.number.to_le_bytes();
-        self.found(Error::PDO_LENGTH, was_short, is_short, [low, high, length, 0, 0]);
+        self.found(EmcyError::PDO_LENGTH, was_short, is_short, [low, high, length, 0, 0]);
     }
 
     /// A frame that may be that of one or more RPDOs; false where it is of none.

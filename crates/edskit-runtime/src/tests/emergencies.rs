@@ -1,6 +1,7 @@
 use super::device::{Builder, COB_ID, RO, RW, plain};
 use super::{Bench, frame};
-use crate::Error;
+use crate::EmcyError;
+use edskit_types::{EmergencyCode, ErrorRegister};
 use std::vec::Vec;
 
 fn device() -> Builder {
@@ -8,9 +9,10 @@ fn device() -> Builder {
     (1..=3).fold(device, |device, sub_index| device.u32(0x1003, sub_index, RO, 0))
 }
 
-const HOT: Error = Error { code: 0x4210, register: 1 << 3 };
+const HOT: EmcyError =
+    EmcyError::new(EmergencyCode::DEVICE_TEMPERATURE.with(0x10), ErrorRegister::TEMPERATURE);
 
-fn raise(bench: &mut Bench, error: Error, source: u16) {
+fn raise(bench: &mut Bench, error: EmcyError, source: u16) {
     bench.node.services(bench.now).raise(error, source, [1, 2, 3, 4, 5]);
 }
 
@@ -34,7 +36,7 @@ fn an_error_is_told_remembered_and_cleared() {
 fn the_history_keeps_the_newest_in_front() {
     let mut bench = Bench::new(device().build());
     for number in 1..=5 {
-        raise(&mut bench, Error { code: 0x1000 + number, register: 0 }, 0);
+        raise(&mut bench, EmcyError { code: 0x1000 + number, register: 0 }, 0);
     }
     let newest: Vec<u8> = (1..=3).map(|sub_index| bench.read(0x1003, sub_index).unwrap()[0]).collect();
     assert_eq!((newest, bench.read(0x1003, 0)), ([5, 4, 3].into(), Ok([3].into())));

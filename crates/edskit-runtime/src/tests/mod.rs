@@ -8,6 +8,7 @@ mod error_changes;
 mod error_control;
 #[cfg(not(feature = "default"))]
 mod features;
+mod given;
 mod hooks;
 mod hostile;
 #[cfg(feature = "lss")]

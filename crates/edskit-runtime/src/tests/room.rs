@@ -2,7 +2,7 @@
 
 use super::device::{Builder, COB_ID, RO, RW, with_values};
 use super::{Bench, frame};
-use crate::{Error, Flags, Frame};
+use crate::{EmcyError, Flags, Frame};
 use edskit_types::{CanId, Index, SubIndex};
 use std::vec::Vec;
 
@@ -219,7 +219,7 @@ fn the_device_has_room_for_its_own_errors_whatever_the_services_find() {
     bench.nmt(1);
     monitors(&mut bench, 40);
     bench.pass(400);
-    let error = |number: u16| Error { code: 0x4200 + number, register: 8 };
+    let error = |number: u16| EmcyError { code: 0x4200 + number, register: 8 };
     for number in 0..32 {
         bench.node.services(bench.now).raise(error(number), number, [0; 5]);
         bench.node.services(bench.now).raise(error(number), number, [0; 5]);
@@ -264,7 +264,7 @@ fn the_last_message_tells_what_is() {
 
 #[test]
 fn what_happens_while_there_is_no_emcy_is_told_when_there_is_one() {
-    let hot = Error { code: 0x4210, register: 8 };
+    let hot = EmcyError { code: 0x4210, register: 8 };
     for (raises, register) in [(1, 9), (2, 0)] {
         let mut bench = Bench::new(device().build());
         bench.write(0x1014, 0, &[0x85, 0, 0, 0x80]).unwrap();
@@ -281,7 +281,7 @@ fn what_happens_while_there_is_no_emcy_is_told_when_there_is_one() {
 
 #[test]
 fn the_inhibit_time_of_emcy_follows_its_parameter() {
-    let hot = Error { code: 0x4210, register: 8 };
+    let hot = EmcyError { code: 0x4210, register: 8 };
     for (time, expected) in [(0_u16, 0), (1000, 50_000), (5000, 450_000)] {
         let mut bench = Bench::new(device().build());
         bench.write(0x1015, 0, &30_000_u16.to_le_bytes()).unwrap();

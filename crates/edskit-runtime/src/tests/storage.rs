@@ -76,7 +76,7 @@ fn bench(storage: impl Storage + 'static) -> Bench {
 
 impl Bench {
     /// A node whose boot-up may be followed by an emergency.
-    fn with_storage(device: super::Device, storage: Box<dyn Storage>) -> Self {
+    pub(super) fn with_storage(device: super::Device, storage: Box<dyn Storage>) -> Self {
         let settings = crate::Settings { node_id: edskit_types::NodeId::new(5).ok(), ..Default::default() };
         let mut bench = Self::off(device, settings, storage);
         bench.app = Box::new(NoApplication);

@@ -2,7 +2,7 @@
 
 use super::{Gathered, Item};
 use crate::layout::value::Bytes;
-use crate::layout::{MOST_ENTRIES, Source};
+use crate::layout::{Array, MOST_ENTRIES, Source};
 use crate::side_file::Extra;
 use crate::{InputFile, Problem, SideFile};
 use edskit_lint::Severity;
@@ -48,10 +48,13 @@ fn add_one(extra: &Extra, side_file: &SideFile, items: &mut Vec<Item>) -> Result
             ));
         }
         let object_name = first.and_then(|item| item.source.object.clone());
+        let array = first.and_then(|item| item.source.array).filter(|array| *array == Array::Object);
         for item in &mut items[object] {
             item.is_extended = true;
         }
-        items.push(item(extra, side_file, index, sub_index, default.clone(), object_name));
+        // What is added to an ARRAY belongs to it.
+        let array = array.or(extra.has_several_sub_objects().then_some(Array::Added(extra.span)));
+        items.push(item(extra, side_file, index, sub_index, default.clone(), object_name, array));
     }
     Ok(())
 }
@@ -68,6 +71,7 @@ fn item(
     sub_index: SubIndex,
     default: Option<Bytes>,
     object: Option<String>,
+    array: Option<Array>,
 ) -> Item {
     Item {
         index,
@@ -90,6 +94,9 @@ fn item(
             object,
             access: extra.access,
             unit: side_file.unit(index, sub_index).map(str::to_owned),
+            array,
+            given_name: None,
+            given_object_name: None,
         },
     }
 }

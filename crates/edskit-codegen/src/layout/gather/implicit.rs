@@ -46,6 +46,9 @@ pub(super) fn add(sheet: &Datasheet, side_file: &SideFile, items: &mut Vec<Item>
                         object: Some(object_name(pdo, index)),
                         access,
                         unit: side_file.unit(index, sub_index).map(str::to_owned),
+                        array: None,
+                        given_name: None,
+                        given_object_name: None,
                     },
                 });
             };

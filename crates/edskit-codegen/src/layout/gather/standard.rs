@@ -89,6 +89,9 @@ impl Place<'_> {
                 object: None,
                 access: AccessType::Ro,
                 unit: self.side_file.unit(index, sub_index).map(str::to_owned),
+                array: None,
+                given_name: None,
+                given_object_name: None,
             },
         }
     }

@@ -8,28 +8,28 @@ use super::super::table::PdoTable;
 use super::super::{Configuration, Pdo};
 use super::Plant;
 use super::side::Phase;
-use crate::gateway::dictionary::canopen_gateway::objects as entries;
-use edskit_runtime::{Application, Emergency, Entry, Error, Microseconds, Objects, Reset, Services, Storage};
+use crate::gateway::dictionary::canopen_gateway::{keys, objects as entries};
+use edskit_runtime::{
+    Application, EmcyError, Emergency, Entry, Key, Microseconds, Objects, Reset, Services, Storage,
+};
 use edskit_types::{AbortCode, Index, NmtState, PdoDirection};
-
-/// The objects with process data, whose size depends on the configuration.
-const DIGITAL_INPUTS: Index = Index(0x2003);
-const ANALOG_INPUTS: Index = Index(0x2004);
 
 impl<G: Governor, S: Storage> Application for Plant<G, S> {
     /// 1001h, 2000h and 2005h follow the errors at any time (5.1.1, 5.1.6; GW-OD-14, GW-OD-19).
     fn before_read(&mut self, node: &mut Services<'_>, entry: &Entry) -> Result<(), AbortCode> {
-        match (entry.index.0, entry.sub_index.0) {
-            (0x1001, _) => node.objects.set(entries::ERROR_REGISTER, self.error_register()),
-            (0x2000, sub_index @ 1..=6) => {
-                let word = self.error_words().get(usize::from(sub_index) - 1).copied();
-                node.objects.set_value(entry.index, sub_index, word.unwrap_or_default());
+        let [errors @ .., engine_status] = entries::DIGITAL_OUTPUTS;
+        match entry.key() {
+            keys::ERROR_REGISTER => node.objects.set(entries::ERROR_REGISTER, self.error_register()),
+            keys::CAN_OPEN_ERRORS => node.objects.set(entries::CAN_OPEN_ERRORS, self.gateway.can_open.0),
+            keys::DIGITAL_OUTPUTS_ENGINE_STATUS => {
+                node.objects.set(engine_status, self.governor.model.engine_status().into());
             }
-            (0x2000, 7) => {
-                node.objects.set_value(entry.index, 7, u16::from(self.governor.model.engine_status()))
+            _ => {
+                let mut words = errors.into_iter().zip(self.error_words());
+                if let Some((handle, word)) = words.find(|(handle, _)| entry.is(*handle)) {
+                    node.objects.set(handle, word);
+                }
             }
-            (0x2005, _) => node.objects.set(entries::CAN_OPEN_ERRORS, self.gateway.can_open.0),
-            _ => {}
         }
         Ok(())
     }
@@ -53,11 +53,10 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
     /// The entries that the initialisation has brought about (2, 5.1; GW-APP-04, GW-EDS-16, GW-NOTE-13).
     fn is_present(&mut self, node: &Services<'_>, entry: &Entry) -> bool {
         let Some(table) = &self.gateway.pdos else { return false };
-        if entry.index == ANALOG_INPUTS {
-            let mapped = table.rpdos.iter().flat_map(|rpdo| rpdo.words()).map(|word| word.object);
+        if entry.place_in(&entries::ANALOG_INPUTS).is_some() {
+            let mut mapped = table.rpdos.iter().flat_map(|rpdo| rpdo.words()).map(|word| word.object);
             return mapped
-                .filter(|object| object.index() == ANALOG_INPUTS)
-                .any(|object| object.sub_index() == entry.sub_index);
+                .any(|object| entry.key() == Key { index: object.index(), sub_index: object.sub_index() });
         }
         entry.sub_index.0 <= node.objects.value(entry.index, 0).unwrap_or_default()
     }
@@ -105,14 +104,15 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
 
     fn rpdo_received(&mut self, node: &mut Services<'_>, number: u16) {
         let reception = &mut self.governor.reception;
-        let word = |index, sub_index| node.objects.value::<u16>(index, sub_index);
         if number == 1 {
-            reception.switches = word(DIGITAL_INPUTS, 1).unwrap_or_default();
-            reception.flags = word(DIGITAL_INPUTS, 2).unwrap_or_default();
+            let [switches, flags] = entries::DIGITAL_INPUTS;
+            reception.switches = node.objects.get(switches);
+            reception.flags = node.objects.get(flags);
         } else {
             let first = 4 * (usize::from(number).saturating_sub(2));
-            for (place, channel) in reception.channels.iter_mut().enumerate().skip(first).take(4) {
-                *channel = word(ANALOG_INPUTS, place as u8 + 1).unwrap_or_default();
+            let inputs = reception.channels.iter_mut().zip(entries::ANALOG_INPUTS);
+            for (channel, input) in inputs.skip(first).take(4) {
+                *channel = node.objects.get(input);
             }
         }
         if let Some(monitoring) = reception.monitoring.get_mut(usize::from(number).saturating_sub(1)) {
@@ -123,7 +123,7 @@ impl<G: Governor, S: Storage> Application for Plant<G, S> {
 
     /// There are no EMCY messages (GW-OD-21), but the node says by one that its transmit buffer was full.
     fn emergency(&mut self, _: &mut Services<'_>, emergency: &mut Emergency) {
-        self.gateway.has_overflown |= emergency.code == Error::CAN_OVERRUN.code;
+        self.gateway.has_overflown |= emergency.code == EmcyError::CAN_OVERRUN.code;
     }
 }
 
@@ -145,7 +145,8 @@ fn build(
     identification: Identification,
 ) {
     let [partner, monitoring, heartbeat] = configuration.heartbeat_parameters();
-    objects.set(entries::CONSUMER_HEARTBEAT_TIME, u32::from(partner) << 16 | u32::from(monitoring));
+    let [consumer] = entries::CONSUMER_HEARTBEAT_TIME;
+    objects.set(consumer, u32::from(partner) << 16 | u32::from(monitoring));
     objects.set(entries::PRODUCER_HEARTBEAT_TIME, heartbeat);
     objects.set(entries::IDENTITY_OBJECT_SERIAL_NUMBER, identification.serial());
     for pdo in table.iter() {
@@ -157,14 +158,14 @@ fn build(
         }
     }
     let sizes = table.object_sizes();
-    for (index, size) in [
-        (0x2000, sizes.digital_outputs),
-        (0x2001, sizes.unsigned_analog_outputs),
-        (0x2002, sizes.signed_analog_outputs),
-        (0x2003, sizes.digital_inputs),
-        (0x2004, sizes.analog_inputs),
+    for (handle, size) in [
+        (entries::DIGITAL_OUTPUTS_NUMBER_OF_ENTRIES, sizes.digital_outputs),
+        (entries::UNSIGNED_ANALOG_OUTPUTS_NUMBER_OF_ENTRIES, sizes.unsigned_analog_outputs),
+        (entries::SIGNED_ANALOG_OUTPUTS_NUMBER_OF_ENTRIES, sizes.signed_analog_outputs),
+        (entries::DIGITAL_INPUTS_NUMBER_OF_ENTRIES, sizes.digital_inputs),
+        (entries::ANALOG_INPUTS_NUMBER_OF_ENTRIES, sizes.analog_inputs),
     ] {
-        objects.set_value(Index(index), 0, size);
+        objects.set(handle, size);
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::tests::device::{RW, with_values};
 use crate::tests::{Bench, NODE, frame};
 use crate::{
-    Application, BusState, Emergency, Entry, Error, Flags, NoStorage, NotSent, PdoPolicy, Remapping,
+    Application, BusState, EmcyError, Emergency, Entry, Flags, NoStorage, NotSent, PdoPolicy, Remapping,
     Services, Settings,
 };
 use edskit_types::{
@@ -18,7 +18,7 @@ const TPDO: u16 = 0x1800;
 const RPDO: u16 = 0x1400;
 /// The abort code of the manual for sets that hold different values.
 const SETS_DIFFER: AbortCode = AbortCode(0x0800_0099);
-const FAULT: Error = Error { code: 0x2310, register: 2 };
+const FAULT: EmcyError = EmcyError { code: 0x2310, register: 2 };
 
 /// Parameters from 2300h on, in eight sets: each bit of the sub-index names one.
 #[derive(Default)]
@@ -133,8 +133,8 @@ impl Application for Drive {
     }
 
     /// Error register and messages follow the drive alone.
-    fn counts(&mut self, error: Error) -> bool {
-        error == Error::PDO_LENGTH
+    fn counts(&mut self, error: EmcyError) -> bool {
+        error == EmcyError::PDO_LENGTH
     }
 
     fn emergency(&mut self, _: &mut Services<'_>, emergency: &mut Emergency) {
@@ -142,8 +142,8 @@ impl Application for Drive {
     }
 
     /// A lost bus stops the drive whatever 1029h says; a lost master does nothing.
-    fn reaction(&mut self, _: &mut Services<'_>, error: Error, _: Option<NmtState>) -> Option<NmtState> {
-        (error == Error::BUS_OFF).then_some(NmtState::Stopped)
+    fn reaction(&mut self, _: &mut Services<'_>, error: EmcyError, _: Option<NmtState>) -> Option<NmtState> {
+        (error == EmcyError::BUS_OFF).then_some(NmtState::Stopped)
     }
 }
 

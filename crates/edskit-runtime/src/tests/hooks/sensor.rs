@@ -4,8 +4,8 @@ use crate::tests::device::{RW, plain};
 use crate::tests::storage::Memory;
 use crate::tests::{Bench, NODE, frame};
 use crate::{
-    Application, BusState, Commissioning, Entry, Error, LssAnswer, LssRequest, Microseconds, Pattern, Record,
-    Reset, Services, Settings, Storage, StorageError, StorageGroup,
+    Application, BusState, Commissioning, EmcyError, Entry, LssAnswer, LssRequest, Microseconds, Pattern,
+    Record, Reset, Services, Settings, Storage, StorageError, StorageGroup,
 };
 use edskit_types::{AbortCode, Bitrate, Index, NmtState, NodeId};
 use std::boxed::Box;
@@ -17,7 +17,7 @@ use std::vec::Vec;
 /// The record with node-ID and bit rate.
 const BUS: u8 = 1;
 const SAVE: [u8; 4] = *b"save";
-const STORE_FAILED: Error = Error { code: 0xFF20, register: 0x80 };
+const STORE_FAILED: EmcyError = EmcyError { code: 0xFF20, register: 0x80 };
 
 /// What the sensor tells its test.
 #[derive(Default)]
