@@ -14,6 +14,25 @@
 //! | what can be asked | [`NotSent`], [`Leds`] |
 //! | for SDO clients too | [`Crc`] |
 //!
+//! # Features
+//!
+//! Services that a device can do without, all on by default. Where one is off, a client can read its entries, but not write
+//! what would need it ([`AbortCode::INVALID_VALUE`](types::AbortCode::INVALID_VALUE)).
+//!
+//! | feature | what it is | without it |
+//! |---|---|---|
+//! | `block-transfer` | SDO block transfer | clients get [`AbortCode::UNKNOWN_COMMAND`](types::AbortCode::UNKNOWN_COMMAND), and go on in segments |
+//! | `further-sdo-servers` | 1201h to 127Fh | there is the default server |
+//! | `guarding` | node guarding and life guarding, 100Ch and 100Dh | remote frames get no answer |
+//! | `heartbeat-consumer` | 1016h | no other node is monitored |
+//! | `lss` | the LSS slave | LSS gets no answer; [`Settings`] and the [`Application`] say node-ID and bit rate |
+//! | `rtr` | remote requests of TPDOs | they get no answer; there are no transmission types FCh and FDh |
+//! | `storage` | 1010h, 1011h, [`Services::save`] | nothing is saved, which 1010h says; [`Services::keep`] is there |
+//! | `sync` | SYNC, its producer, synchronous PDOs | there are no transmission types 00h to F0h and FCh |
+//! | `time` | TIME consumer, 1012h | the message is not taken |
+//!
+//! # A dictionary
+//!
 //! A dictionary is generated from an EDS ([`include_dictionary!`]); what comes out is the like of this thermometer:
 //!
 //! ```

@@ -62,7 +62,7 @@ pub(crate) fn firmware() -> Outcome {
             };
             let (all_flash, all_memory) = *all.get_or_insert((flash, memory));
             say(format_args!(
-                "{:26} flash {flash:>6} of at most {most_flash:>6} ({:+}), memory {memory:>5} of at most {most_memory:>5} ({:+})",
+                "{:27} flash {flash:>6} of at most {most_flash:>6} ({:+}), memory {memory:>5} of at most {most_memory:>5} ({:+})",
                 title(firmware),
                 flash - all_flash,
                 memory - all_memory,
