@@ -16,6 +16,10 @@ use edskit_types::{AbortCode, CobId, Index, SubIndex};
 
 /// Where 1010h and 1011h take commands: from sub-index 01h on.
 const FIRST_COMMAND: u8 = 1;
+/// "save", as 1010h wants it.
+const SAVE: [u8; 4] = *b"save";
+/// "load", as 1011h wants it.
+const LOAD: [u8; 4] = *b"load";
 
 impl<'a, A: Application + ?Sized> Context<'a, A> {
     /// The entry at a place, in the dictionary or with the device, and where it is.
@@ -114,8 +118,9 @@ impl<'a, A: Application + ?Sized> Context<'a, A> {
         match index {
             Index::SYNC_COB_ID => self.check_sync(cob_id),
             Index::STORE_PARAMETERS | Index::RESTORE_PARAMETERS if is_command(entry) => {
-                self.check_command(index, data)
+                check_command(index, data)
             }
+            Index(0x100C) => self.check_guard_time(data),
             Index(0x1012) => self.check_time(cob_id),
             Index::EMCY_COB_ID => self.node.check_cob_id(cob_id),
             Index::CONSUMER_HEARTBEAT if sub_index.0 > 0 => self.check_consumer(sub_index, cob_id.0),
@@ -211,4 +216,10 @@ pub(crate) fn is_communication(index: Index) -> bool {
 fn is_command(entry: &Entry) -> bool {
     let takes_commands = matches!(entry.index, Index::STORE_PARAMETERS | Index::RESTORE_PARAMETERS);
     takes_commands && entry.sub_index.0 >= FIRST_COMMAND
+}
+
+/// What 1010h and 1011h take: their signature.
+fn check_command(index: Index, data: &[u8]) -> Result<(), AbortCode> {
+    let signature = if index == Index::STORE_PARAMETERS { SAVE } else { LOAD };
+    if data == signature { Ok(()) } else { Err(AbortCode::CANNOT_TRANSFER) }
 }

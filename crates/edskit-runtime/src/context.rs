@@ -2,14 +2,15 @@
 
 use crate::emcy::Emcy;
 use crate::guarding::Guarding;
-use crate::heartbeat::{HeartbeatConsumer, Producer};
+use crate::heartbeat::Producer;
+use crate::heartbeat_consumer::HeartbeatConsumer;
 use crate::lss::Lss;
 use crate::pdo::Rpdo;
 use crate::queue::Queue;
 use crate::services::{Requests, Services};
 use crate::sync::Sync;
 use crate::{Application, BusState, Frame, Instant, Microseconds, Settings};
-use edskit_types::{CanId, NmtState, NodeId};
+use edskit_types::{Bitrate, CanId, NmtState, NodeId};
 
 /// The state of a node besides its dictionary.
 #[derive(Debug)]
@@ -21,6 +22,8 @@ pub(crate) struct Core {
     pub(crate) pending_node_id: Option<NodeId>,
     /// The node-ID in use at the last reset of the node: it is in the values from 2000h on that follow the node-ID.
     pub(crate) node_id_of_reset: Option<NodeId>,
+    /// The bit rate that is stored, or was configured last; `None` where that is up to the device.
+    pub(crate) bit_rate: Option<Bitrate>,
     pub(crate) state: NmtState,
     /// Whether the first initialisation is done.
     pub(crate) has_started: bool,
@@ -61,7 +64,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
             return;
         }
         match can_id.raw() {
-            0x7E5 if self.node.core.settings.has_lss => self.lss_request(frame),
+            0x7E5 if Lss::exists(&self.node.core.settings) => self.lss_request(frame),
             // Without a node-ID there is nothing but LSS.
             _ if self.node.core.node_id.is_none() => {}
             0 => self.nmt_command(frame),

@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::nmt::error_control;
 use crate::time::Timer;
 use crate::{EmcyError, Instant, Microseconds};
-use edskit_types::{CanId, Index};
+use edskit_types::{AbortCode, CanId, Index};
 
 const GUARD_TIME: Index = Index(0x100C);
 const LIFE_TIME_FACTOR: Index = Index(0x100D);
@@ -67,6 +67,11 @@ impl<A: Application + ?Sized> Context<'_, A> {
         let guard_time: u16 = self.node.objects.value(GUARD_TIME, 0).unwrap_or_default();
         let factor: u8 = self.node.objects.value(LIFE_TIME_FACTOR, 0).unwrap_or_default();
         Microseconds::from_milliseconds(u32::from(guard_time) * u32::from(factor))
+    }
+
+    /// What 100Ch can be set to: anything.
+    pub(crate) fn check_guard_time(&self, _: &[u8]) -> Result<(), AbortCode> {
+        Ok(())
     }
 
     /// What follows from 100Ch and 100Dh: a life time that runs begins anew, and an error of the old one is none any more.

@@ -14,6 +14,25 @@
 //! | what can be asked | [`NotSent`], [`Leds`] |
 //! | for SDO clients too | [`Crc`] |
 //!
+//! # Features
+//!
+//! Services that a device can do without, all on by default. Where one is off, a client can read its entries, but not write
+//! what would need it ([`AbortCode::INVALID_VALUE`](types::AbortCode::INVALID_VALUE)).
+//!
+//! | feature | what it is | without it |
+//! |---|---|---|
+//! | `block-transfer` | SDO block transfer | clients get [`AbortCode::UNKNOWN_COMMAND`](types::AbortCode::UNKNOWN_COMMAND), and go on in segments |
+//! | `further-sdo-servers` | 1201h to 127Fh | there is the default server |
+//! | `guarding` | node guarding and life guarding, 100Ch and 100Dh | remote frames get no answer |
+//! | `heartbeat-consumer` | 1016h | no other node is monitored |
+//! | `lss` | the LSS slave | LSS gets no answer; [`Settings`] and the [`Application`] say node-ID and bit rate |
+//! | `rtr` | remote requests of TPDOs | they get no answer; there are no transmission types FCh and FDh |
+//! | `storage` | 1010h, 1011h, [`Services::save`] | nothing is saved, which 1010h says; [`Services::keep`] is there |
+//! | `sync` | SYNC, its producer, synchronous PDOs | there are no transmission types 00h to F0h and FCh |
+//! | `time` | TIME consumer, 1012h | the message is not taken |
+//!
+//! # A dictionary
+//!
 //! A dictionary is generated from an EDS ([`include_dictionary!`]); what comes out is the like of this thermometer:
 //!
 //! ```
@@ -81,6 +100,8 @@
 #![no_std]
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+// Where a service is off, nobody uses what only it has used.
+#![cfg_attr(not(feature = "default"), allow(dead_code, unused_imports))]
 
 #[cfg(test)]
 extern crate std;
@@ -88,6 +109,7 @@ extern crate std;
 mod access;
 mod application;
 mod bus_state;
+mod commissioning;
 mod context;
 mod crc;
 mod device;
@@ -95,24 +117,33 @@ mod dictionary;
 mod emcy;
 mod error_behaviour;
 mod frame;
+#[cfg_attr(not(feature = "guarding"), path = "off/guarding.rs")]
 mod guarding;
 mod heartbeat;
+#[cfg_attr(not(feature = "heartbeat-consumer"), path = "off/heartbeat_consumer.rs")]
+mod heartbeat_consumer;
 mod led;
+#[cfg_attr(not(feature = "lss"), path = "off/lss.rs")]
 mod lss;
 mod nmt;
 mod node;
 mod pdo;
 mod queue;
+mod records;
 mod ring;
 mod sdo;
 mod services;
+#[cfg_attr(not(feature = "storage"), path = "off/storage.rs")]
 mod storage;
+#[cfg_attr(not(feature = "sync"), path = "off/sync.rs")]
 mod sync;
 mod time;
+#[cfg_attr(not(feature = "time"), path = "off/time_stamp.rs")]
 mod time_stamp;
 
 pub use application::{Application, NoApplication, Reset, TimeOfDay};
 pub use bus_state::BusState;
+pub use commissioning::{Commissioning, LssAnswer, LssRequest};
 pub use crc::Crc;
 pub use device::{Device, NodeDevice};
 pub use dictionary::{
@@ -122,14 +153,13 @@ pub use dictionary::{
 };
 pub use emcy::{EmcyError, Emergency};
 pub use frame::{Frame, MOST_DATA};
-pub use heartbeat::HeartbeatConsumer;
+pub use heartbeat_consumer::HeartbeatConsumer;
 pub use led::{Leds, Pattern};
-pub use lss::{Commissioning, LssAnswer, LssRequest};
 pub use node::{Node, Settings};
 pub use pdo::{Mapped, NotSent, PdoPolicy, Remapping, Rpdo, Tpdo};
+pub use records::{NoStorage, Record, Storage, StorageError};
 pub use sdo::SdoServer;
 pub use services::Services;
-pub use storage::{NoStorage, Record, Storage, StorageError};
 pub use time::{Instant, Microseconds};
 
 /// The words of CANopen, for generated code.

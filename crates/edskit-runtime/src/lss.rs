@@ -1,17 +1,16 @@
 //! LSS slave: layer setting services (CiA 305 v2.2).
 
 use crate::Application;
+use crate::commissioning::SOURCE;
 use crate::context::Context;
-use crate::storage::{Reader, Record};
-use crate::{EmcyError, Frame, MOST_DATA, Reset, Settings, Storage, StorageError};
+use crate::records::{Record, StorageError};
+use crate::{Commissioning, EmcyError, Frame, LssAnswer, LssRequest, MOST_DATA, Reset, Settings};
 use edskit_types::{Bitrate, CanId, Index, NodeId};
 
 /// The identifier of answers, 7E4h.
 const RESPONSE: u16 = 0x7E4;
 /// The node-ID that means: none.
 const UNCONFIGURED: u8 = 255;
-/// What tells the error of a lost record apart from those of groups of parameters.
-pub(crate) const SOURCE: u16 = 0;
 
 /// Command specifiers.
 mod command {
@@ -43,97 +42,21 @@ pub(crate) struct Lss {
     identified: u8,
     /// Which number of the identity a fast scan looks at.
     scanned: u8,
-    /// The bit rate that is stored, or was configured last.
-    pub(crate) bit_rate: Option<Bitrate>,
-}
-
-/// Node-ID and bit rate of a device: what LSS stores together, and what counts from power-on.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Commissioning {
-    /// The node-ID; `None` where the node waits for one.
-    pub node_id: Option<NodeId>,
-    /// The bit rate; `None` where LSS has stored none, so that it is up to the device.
-    pub bit_rate: Option<Bitrate>,
-}
-
-impl Commissioning {
-    /// What a node with this storage and these settings will have at power-on. A firmware needs the bit rate before its CAN
-    /// controller, and so its node, can begin.
-    ///
-    /// What LSS has stored counts, a bit rate only if it is one of the settings. The node-ID is that of the settings where
-    /// nothing is stored or the record is torn, and where the device has no LSS.
-    ///
-    /// ```
-    /// use edskit_runtime::{Commissioning, NoStorage, Settings};
-    ///
-    /// let commissioning = Commissioning::stored(&mut NoStorage, &Settings::default());
-    /// assert_eq!((commissioning.node_id, commissioning.bit_rate), (Settings::default().node_id, None));
-    /// ```
-    pub fn stored(storage: &mut dyn Storage, settings: &Settings) -> Self {
-        Self::read(storage, settings).0
-    }
-
-    /// The same, and whether something was stored that cannot be read.
-    pub(crate) fn read(storage: &mut dyn Storage, settings: &Settings) -> (Self, bool) {
-        let none = Self { node_id: settings.node_id, bit_rate: None };
-        if !settings.has_lss {
-            return (none, false);
-        }
-        let mut record = [0; 6];
-        let length = Reader::new(storage, Record::Lss).read(&mut record);
-        let [node_id, not_node_id, low, high, not_low, not_high] = record;
-        if length == Ok(0) {
-            return (none, false);
-        }
-        if length != Ok(record.len()) || node_id != !not_node_id || low != !not_low || high != !not_high {
-            return (none, true);
-        }
-        let bit_rate = Bitrate::from_kbit_per_s(u16::from_le_bytes([low, high]).into());
-        let bit_rate = bit_rate.filter(|bit_rate| settings.bit_rates.has(*bit_rate));
-        (Self { node_id: NodeId::new(node_id).ok(), bit_rate }, false)
-    }
-}
-
-/// What an LSS master asks a node for that the device may do, or refuse, itself (CiA 305 v2.2).
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum LssRequest {
-    /// To enter the configuration state: switch mode global or selective. A refusal is not told to the master.
-    Configuration,
-    /// To have this node-ID from the next reset on; `None` for none (255).
-    NodeId(Option<NodeId>),
-    /// To have a bit rate: its index in a table of bit rates, 0 for that of CiA 305, others for those of the manufacturer.
-    BitRate {
-        /// The table.
-        table: u8,
-        /// The index.
-        index: u8,
-    },
-    /// To use the configured bit rate after so many milliseconds, and to be silent as long again. There is no answer.
-    ActivateBitRate(u16),
-    /// To store what is configured.
-    Store(Commissioning),
-}
-
-/// Who does what an LSS master asks for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum LssAnswer {
-    /// The node, as CiA 305 says.
-    ByNode,
-    /// The device has done it; the master is told success.
-    Done,
-    /// Nobody: the master is told this error code, 1 for a value that is out of range or not supported, 2 for a failure of
-    /// the memory, 255 for an error of the manufacturer.
-    Refused(u8),
 }
 
 impl Lss {
     pub(crate) const fn new() -> Self {
-        Self { is_in_configuration: false, selected: 0, identified: 0, scanned: 0, bit_rate: None }
+        Self { is_in_configuration: false, selected: 0, identified: 0, scanned: 0 }
     }
 
-    /// Back to the state waiting, to which the initial state leads (CiA 305, slave FSA); a bit rate stays configured.
+    /// Whether the node is an LSS slave.
+    pub(crate) fn exists(settings: &Settings) -> bool {
+        settings.has_lss
+    }
+
+    /// Back to the state waiting, to which the initial state leads (CiA 305, slave FSA).
     pub(crate) fn restart(&mut self) {
-        *self = Self { bit_rate: self.bit_rate, ..Self::new() };
+        *self = Self::new();
     }
 
     pub(crate) fn is_in_configuration(&self) -> bool {
@@ -191,7 +114,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
                         let bit_rate = Bitrate::from_lss_index(b2);
                         let supported = bit_rate.filter(|bit_rate| b1 == 0 && bit_rates.has(*bit_rate));
                         if supported.is_some() {
-                            self.node.core.lss.bit_rate = supported;
+                            self.node.core.bit_rate = supported;
                         }
                         u8::from(supported.is_none())
                     }
@@ -201,13 +124,13 @@ impl<A: Application + ?Sized> Context<'_, A> {
             command::ACTIVATE_BIT_TIMING => {
                 let delay = u16::from_le_bytes([b1, b2]);
                 let answer = self.app.lss(&mut self.node, LssRequest::ActivateBitRate(delay));
-                if let (LssAnswer::ByNode, Some(bit_rate)) = (answer, self.node.core.lss.bit_rate) {
+                if let (LssAnswer::ByNode, Some(bit_rate)) = (answer, self.node.core.bit_rate) {
                     self.app.activate_bit_rate(bit_rate, delay);
                 }
             }
             command::STORE => {
                 let core = &self.node.core;
-                let present = Commissioning { node_id: core.pending_node_id, bit_rate: core.lss.bit_rate };
+                let present = Commissioning { node_id: core.pending_node_id, bit_rate: core.bit_rate };
                 let error = match self.app.lss(&mut self.node, LssRequest::Store(present)) {
                     LssAnswer::Refused(error) => error,
                     LssAnswer::Done => 0,
@@ -341,7 +264,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Stores node-ID and bit rate, the one that was configured last or is stored already.
     fn store_lss(&mut self) -> Result<(), StorageError> {
         let node_id = self.node.core.pending_node_id.map_or(UNCONFIGURED, NodeId::get);
-        let rate = self.node.core.lss.bit_rate.map_or(0, Bitrate::kbit_per_s).to_le_bytes();
+        let rate = self.node.core.bit_rate.map_or(0, Bitrate::kbit_per_s).to_le_bytes();
         let [low, high] = rate;
         self.node.storage.begin(Record::Lss)?;
         // The complement tells a torn record from a right one.

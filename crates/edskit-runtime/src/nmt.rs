@@ -2,11 +2,12 @@
 
 use crate::Application;
 use crate::access::is_communication;
+use crate::commissioning::{Commissioning, SOURCE};
 use crate::context::Context;
 use crate::emcy::Emcy;
 use crate::guarding::Guarding;
-use crate::heartbeat::{HeartbeatConsumer, Producer};
-use crate::lss::Commissioning;
+use crate::heartbeat::Producer;
+use crate::heartbeat_consumer::HeartbeatConsumer;
 use crate::{EmcyError, Frame, Record, Reset};
 use edskit_types::{CanId, Index, NmtCommand, NmtState, NodeId};
 
@@ -26,14 +27,14 @@ impl<A: Application + ?Sized> Context<'_, A> {
         let (Commissioning { node_id, bit_rate }, is_lost) =
             Commissioning::read(self.node.storage, &self.node.core.settings);
         self.node.core.pending_node_id = node_id;
-        self.node.core.lss.bit_rate = bit_rate;
+        self.node.core.bit_rate = bit_rate;
         if let Some(bit_rate) = bit_rate {
             self.app.activate_bit_rate(bit_rate, 0);
         }
         self.initialise(Reset::Node);
         if is_lost {
             self.app.storage_failed(&mut self.node, Record::Lss);
-            self.raise(EmcyError::LOST_PARAMETERS, crate::lss::SOURCE, [0; 5]);
+            self.raise(EmcyError::LOST_PARAMETERS, SOURCE, [0; 5]);
         }
     }
 
@@ -106,11 +107,11 @@ impl<A: Application + ?Sized> Context<'_, A> {
     /// Takes node-ID and bit rate as LSS or the device has configured them.
     fn commission(&mut self, reset: Reset) {
         let core = &self.node.core;
-        let configured = Commissioning { node_id: core.pending_node_id, bit_rate: core.lss.bit_rate };
+        let configured = Commissioning { node_id: core.pending_node_id, bit_rate: core.bit_rate };
         let new = self.app.commissioning(&mut self.node, configured, reset);
         self.node.core.pending_node_id = new.node_id;
         self.node.core.node_id = new.node_id;
-        self.node.core.lss.bit_rate = new.bit_rate;
+        self.node.core.bit_rate = new.bit_rate;
         if let Some(bit_rate) = new.bit_rate.filter(|_| new.bit_rate != configured.bit_rate) {
             self.app.activate_bit_rate(bit_rate, 0);
         }

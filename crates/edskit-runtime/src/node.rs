@@ -90,6 +90,7 @@ impl<D: Dictionary, S: Storage> Node<D, S> {
             node_id: None,
             pending_node_id: None,
             node_id_of_reset: None,
+            bit_rate: None,
             state: NmtState::Initialising,
             has_started: false,
             is_held: false,

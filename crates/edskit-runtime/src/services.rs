@@ -3,7 +3,7 @@
 use crate::Application;
 use crate::access::is_communication;
 use crate::context::{Context, Core};
-use crate::heartbeat::HeartbeatConsumer;
+use crate::heartbeat_consumer::HeartbeatConsumer;
 use crate::pdo::{Mapped, Rpdo, Tpdo};
 use crate::ring::Ring;
 use crate::sdo::SdoServer;

@@ -2,6 +2,7 @@
 
 mod conformance;
 mod docs;
+mod features;
 mod python;
 mod step;
 mod test;

@@ -1,7 +1,7 @@
 //! `cargo xtask test`: the one command that says whether everything holds.
 
 use crate::step::{self, Outcome, cargo};
-use crate::{conformance, is_ci, python, say, thumb, tutorial};
+use crate::{conformance, features, is_ci, python, say, thumb, tutorial};
 use std::process::{ExitCode, Stdio};
 use std::time::Instant;
 
@@ -17,6 +17,7 @@ const STEPS: &[Step] = &[
     ("benchmarks", benchmarks),
     ("fuzz targets compile", fuzz_targets),
     ("no operating system below the runtime", thumb::no_std),
+    ("every set of services", features::hold),
     ("size of a firmware", thumb::firmware),
     ("independent reading of the corpus", python::independent_reading),
     ("conformance of nodes", conformance::of_nodes),

@@ -1,5 +1,6 @@
 //! What holds on a microcontroller: the crates of the device half know no operating system, and a firmware stays small.
 
+use crate::features::{ALL, Eds, FIRMWARES, Firmware, title};
 use crate::python::shared;
 use crate::root;
 use crate::say;
@@ -15,10 +16,8 @@ const USUAL: &str = "thumbv7m-none-eabi";
 const OWN_TOOLCHAIN: &str = "target/thumb-toolchain/bin";
 const FIRMWARE: &str = "tests/firmware";
 
-/// The most bytes of flash that the firmware with every service takes, and of memory that its node takes: what they were
-/// when they were measured last, and a little more for another compiler.
-const MOST_FLASH: u64 = 31_800;
-const MOST_MEMORY: u64 = 1_700;
+/// A small slave of its own: NMT, heartbeat, SDO, two PDOs of each direction, EMCY.
+const SMALL: &str = "tests/firmware/Small.eds";
 
 /// Whether the crates of a device compile without an operating system.
 pub(crate) fn no_std() -> Outcome {
@@ -34,44 +33,62 @@ pub(crate) fn no_std() -> Outcome {
     })
 }
 
-/// Whether a firmware with every service fits into so much flash and memory, and has nothing that panics.
+/// What firmwares take with every service, without each, and with none, and whether they have grown or can panic.
 pub(crate) fn firmware() -> Outcome {
     with_toolchain(|bin| {
-        let mut build = cargo(bin);
-        build.current_dir(root().join(FIRMWARE)).args(["build", "--release"]);
-        let eds = shared().join("conformance/full.eds");
-        if !eds.is_file() {
-            return Outcome::LeftOut(format!("{} is no file", eds.display()));
+        let full = shared().join("conformance/full.eds");
+        if !full.is_file() {
+            return Outcome::LeftOut(format!("{} is no file", full.display()));
         }
-        let target = root().join("target/firmware");
-        let eds = eds.canonicalize().unwrap_or(eds);
-        match run(build.env("EDSKIT_FIRMWARE_EDS", eds).env("CARGO_TARGET_DIR", &target)) {
-            Outcome::Passed => judge(&target.join(USUAL).join("release/firmware")),
-            outcome => outcome,
+        let full = full.canonicalize().unwrap_or(full);
+        let (mut all, mut outcome) = (None, Outcome::Passed);
+        for firmware in FIRMWARES {
+            let Firmware { without, eds, most_flash, most_memory } = firmware;
+            let features = ALL.iter().filter(|name| !without.contains(name));
+            let features: Vec<String> = features.map(|name| format!("edskit-runtime/{name}")).collect();
+            let eds = if *eds == Eds::Small { root().join(SMALL) } else { full.clone() };
+            let target = root().join("target/firmware");
+            let mut build = cargo(bin.clone());
+            build.current_dir(root().join(FIRMWARE)).args(["build", "--quiet", "--release"]);
+            build.args(["--no-default-features", "--features", &features.join(",")]);
+            build.env("EDSKIT_FIRMWARE_EDS", eds).env("CARGO_TARGET_DIR", &target);
+            match run(&mut build) {
+                Outcome::Passed => {}
+                failed => return failed,
+            }
+            let (flash, memory) = match measure(&target.join(USUAL).join("release/firmware")) {
+                Ok(measured) => measured,
+                Err(outcome) => return outcome,
+            };
+            let (all_flash, all_memory) = *all.get_or_insert((flash, memory));
+            say(format_args!(
+                "{:27} flash {flash:>6} of at most {most_flash:>6} ({:+}), memory {memory:>5} of at most {most_memory:>5} ({:+})",
+                title(firmware),
+                flash - all_flash,
+                memory - all_memory,
+            ));
+            if flash > *most_flash || memory > *most_memory {
+                outcome = Outcome::Failed(format!("the firmware has grown: {}", title(firmware)));
+            }
         }
+        outcome
     })
 }
 
-fn judge(program: &Path) -> Outcome {
+/// The bytes of flash and of memory that a firmware takes.
+fn measure(program: &Path) -> Result<(i64, i64), Outcome> {
     let (Some(sections), Some(symbols)) = (output("size", program), output("nm", program)) else {
-        return Outcome::LeftOut("there is no `size` or no `nm`, which binutils have".to_owned());
+        return Err(Outcome::LeftOut("there is no `size` or no `nm`, which binutils have".to_owned()));
     };
     let numbers = sections.lines().nth(1).unwrap_or_default().split_whitespace();
-    let numbers: Vec<u64> = numbers.map_while(|number| number.parse().ok()).collect();
+    let numbers: Vec<i64> = numbers.map_while(|number| number.parse().ok()).collect();
     let [code, data, zeroed, ..] = numbers[..] else {
-        return Outcome::Failed(format!("`size` says\n{sections}"));
+        return Err(Outcome::Failed(format!("`size` says\n{sections}")));
     };
-    let (flash, memory) = (code + data, data + zeroed);
-    say(format_args!(
-        "flash {flash} bytes of at most {MOST_FLASH}, memory {memory} of at most {MOST_MEMORY}"
-    ));
     if let Some(panicking) = symbols.lines().find(|line| line.contains("panic")) {
-        return Outcome::Failed(format!("the firmware can panic: {panicking}"));
+        return Err(Outcome::Failed(format!("the firmware can panic: {panicking}")));
     }
-    if flash > MOST_FLASH || memory > MOST_MEMORY {
-        return Outcome::Failed("the firmware has grown".to_owned());
-    }
-    Outcome::Passed
+    Ok((code + data, data + zeroed))
 }
 
 /// What a tool says about a program.

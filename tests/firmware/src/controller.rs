@@ -7,6 +7,9 @@ use edskit_runtime::{Frame, Instant};
 /// Where the registers begin.
 const BASE: *mut u32 = 0x4004_0000 as *mut u32;
 
+/// In the length: the frame is a remote one.
+const REMOTE: u32 = 1 << 8;
+
 /// The registers, each a word.
 #[derive(Clone, Copy)]
 enum Register {
@@ -46,10 +49,14 @@ impl Controller {
             return None;
         }
         let can_id = CanId::standard(Register::CanId.read() as u16)?;
+        let length = Register::Length.read();
+        if length & REMOTE != 0 {
+            return Some(Frame::remote(can_id, length as u8));
+        }
         let [a, b, c, d] = Register::DataLow.read().to_le_bytes();
         let [e, f, g, h] = Register::DataHigh.read().to_le_bytes();
         let data = [a, b, c, d, e, f, g, h];
-        Some(Frame::new(can_id, data.get(..Register::Length.read() as usize).unwrap_or(&data)))
+        Some(Frame::new(can_id, data.get(..length as usize).unwrap_or(&data)))
     }
 
     pub(crate) fn transmit(&mut self, frame: &Frame) {

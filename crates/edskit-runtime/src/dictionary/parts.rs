@@ -1,7 +1,7 @@
 //! A dictionary with the working memory of a node, sized for it.
 
 use super::{Objects, Table};
-use crate::heartbeat::HeartbeatConsumer;
+use crate::heartbeat_consumer::HeartbeatConsumer;
 use crate::pdo::{Mapped, Rpdo, Tpdo};
 use crate::sdo::SdoServer;
 

@@ -1,7 +1,7 @@
 //! What the parameters of PDOs can be set to, and what follows (CiA 301 v4.2, 7.5.2.35 to 7.5.2.38).
 
 use super::mapping::Slots;
-use super::{MOST_ENTRIES, Parameters, PdoPolicy, Place, Remapping, Rpdo, Tpdo, sub};
+use super::{MOST_ENTRIES, Parameters, PdoPolicy, Place, Remapping, Rpdo, Tpdo, remote, sub, synchronous};
 use crate::Application;
 use crate::Value;
 use crate::context::Context;
@@ -68,7 +68,14 @@ impl<A: Application + ?Sized> Context<'_, A> {
 
     fn meaning_of(&mut self, place: Place) -> Transmission {
         let transmission = self.node.objects.value(place.communication(), sub::TRANSMISSION_TYPE);
-        self.app.transmission(place.direction, TransmissionType(transmission.unwrap_or(0xFF)))
+        self.meaning(place.direction, TransmissionType(transmission.unwrap_or(0xFF)))
+    }
+
+    /// What a transmission type means; reserved is also what the node has no service for.
+    fn meaning(&mut self, direction: PdoDirection, transmission: TransmissionType) -> Transmission {
+        let meaning = self.app.transmission(direction, transmission);
+        let is_known = synchronous::knows(meaning) && remote::knows(meaning);
+        if is_known { meaning } else { Transmission::Reserved }
     }
 
     /// The identifier of a PDO that exists.
@@ -124,7 +131,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
         let is_right = match sub_index.0 {
             sub::COB_ID => return self.node.check_cob_id(CobId(value)),
             sub::TRANSMISSION_TYPE => {
-                let meaning = self.app.transmission(place.direction, TransmissionType(value as u8));
+                let meaning = self.meaning(place.direction, TransmissionType(value as u8));
                 meaning != Transmission::Reserved
             }
             sub::SYNC_START => is_sync_start(value as u8),

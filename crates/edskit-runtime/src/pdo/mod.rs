@@ -4,6 +4,10 @@ mod configure;
 mod mapping;
 mod policy;
 mod receive;
+#[cfg_attr(not(feature = "rtr"), path = "../off/pdo_remote.rs")]
+mod remote;
+#[cfg_attr(not(feature = "sync"), path = "../off/pdo_synchronous.rs")]
+mod synchronous;
 mod transmit;
 
 pub use mapping::Mapped;

@@ -1,12 +1,13 @@
 //! RPDOs: taking frames, the SYNC message, and the event time.
 
 use super::Parameters;
+use super::synchronous::waits_for_sync;
 use crate::Application;
 use crate::context::Context;
 use crate::dictionary::raw;
 use crate::time::Timer;
 use crate::{EmcyError, Frame, Instant};
-use edskit_types::{CanId, NmtState, Transmission};
+use edskit_types::{CanId, NmtState};
 
 /// An RPDO at work.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +16,7 @@ pub struct Rpdo {
     /// Runs from the first frame on.
     deadline: Timer,
     /// Data that wait for the SYNC message.
-    waiting: Option<u64>,
+    pub(super) waiting: Option<u64>,
     /// Whether it is an error that no frame has come in time.
     is_late: bool,
     /// Whether it is an error that the last frame was too short.
@@ -52,7 +53,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
             self.shortness_found(place, false, 0);
             return;
         }
-        if new.meaning != Transmission::Synchronous {
+        if !waits_for_sync(new.meaning) {
             rpdo.waiting = None;
         }
         if new.event_time != old.event_time {
@@ -109,7 +110,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
             return;
         };
         let data = raw(data, false);
-        let is_synchronous = meaning == Transmission::Synchronous;
+        let is_synchronous = waits_for_sync(meaning);
         let is_in_time = !is_synchronous || !self.window_has_passed();
         let Some(rpdo) = self.node.rpdos.get_mut(place) else { return };
         rpdo.deadline = Timer::after(self.node.now, rpdo.parameters.event_time());
@@ -121,20 +122,6 @@ impl<A: Application + ?Sized> Context<'_, A> {
             self.lateness_found(place, false);
         }
         if !is_synchronous {
-            self.scatter(number, slots, data);
-            self.app.rpdo_received(&mut self.node, number);
-        }
-    }
-
-    /// The SYNC message makes the data count that were received before it.
-    pub(crate) fn apply_synchronous_rpdos(&mut self) {
-        if self.node.core.state != NmtState::Operational {
-            return;
-        }
-        for place in 0..self.node.rpdos.len() {
-            let Some(rpdo) = self.node.rpdos.get_mut(place) else { continue };
-            let Some(data) = rpdo.waiting.take() else { continue };
-            let (number, slots) = (rpdo.parameters.number, rpdo.parameters.slots);
             self.scatter(number, slots, data);
             self.app.rpdo_received(&mut self.node, number);
         }

@@ -8,7 +8,7 @@ use crate::dictionary::Position;
 use crate::services::Services;
 use crate::time::Timer;
 use crate::{Instant, Microseconds};
-use edskit_types::{CanId, NmtState, Transmission};
+use edskit_types::{NmtState, Transmission};
 
 /// A TPDO at work.
 #[derive(Clone, Copy, Debug)]
@@ -16,23 +16,23 @@ pub struct Tpdo {
     pub(super) parameters: Parameters,
     /// In multiples of 100 µs.
     inhibit_time: u16,
-    sync_start: u8,
+    pub(super) sync_start: u8,
     /// A bit for each value that it carries; others may have the same one.
     carries: u32,
     /// Whether an event has happened that has not been sent yet.
-    is_due: bool,
+    pub(super) is_due: bool,
     /// Whether it is to be sent as soon as the queue has room, whatever else holds: its SYNC message has come, or a request.
-    is_ready: bool,
+    pub(super) is_ready: bool,
     /// Runs while the PDO must not be sent again.
     inhibit: Timer,
     /// Runs to the next transmission without an event.
     event: Timer,
     /// SYNC messages since the last transmission.
-    syncs: u8,
+    pub(super) syncs: u8,
     /// Whether the SYNC message with the start value has not come yet.
-    waits_for_start: bool,
+    pub(super) waits_for_start: bool,
     /// Data sampled at the last SYNC message, for type 252, and for what has no room yet.
-    sample: Option<u64>,
+    pub(super) sample: Option<u64>,
 }
 
 impl Tpdo {
@@ -51,7 +51,7 @@ impl Tpdo {
         sample: None,
     };
 
-    fn meaning(&self) -> Transmission {
+    pub(super) fn meaning(&self) -> Transmission {
         self.parameters.meaning
     }
 
@@ -64,11 +64,6 @@ impl Tpdo {
         self.is_event_driven() || self.meaning() == Transmission::SynchronousAcyclic
     }
 
-    /// Whether it is sent in the period that its SYNC message has begun, and in no other.
-    fn is_of_a_period(&self) -> bool {
-        matches!(self.meaning(), Transmission::SynchronousAcyclic | Transmission::SynchronousCyclic(_))
-    }
-
     /// The time between two transmissions without an event, which only types FEh and FFh have; 0 for none.
     #[inline(never)]
     fn event_period(&self) -> Microseconds {
@@ -76,7 +71,7 @@ impl Tpdo {
     }
 
     /// Whether the PDO exists and carries something.
-    fn is_usable(&self) -> bool {
+    pub(super) fn is_usable(&self) -> bool {
         self.parameters.can_id.is_some() && self.parameters.slots.count > 0
     }
 
@@ -265,76 +260,8 @@ impl<A: Application + ?Sized> Context<'_, A> {
         self.node.core.next_tpdo = without_room.unwrap_or(0);
     }
 
-    /// The SYNC message has come.
-    pub(crate) fn send_synchronous_tpdos(&mut self, counter: Option<u8>) {
-        if self.node.core.state != NmtState::Operational {
-            return;
-        }
-        for place in 0..self.node.tpdos.len() {
-            self.lose_late(place);
-            let Some(tpdo) = self.node.tpdos.get_mut(place) else { continue };
-            let has_turn = match tpdo.meaning() {
-                Transmission::SynchronousAcyclic => tpdo.is_due,
-                Transmission::SynchronousCyclic(every) => {
-                    if tpdo.waits_for_start && counter.is_some() {
-                        if counter != Some(tpdo.sync_start) {
-                            continue;
-                        }
-                        tpdo.waits_for_start = false;
-                        tpdo.syncs = every;
-                    } else {
-                        tpdo.syncs = tpdo.syncs.saturating_add(1);
-                    }
-                    let has_turn = tpdo.syncs >= every;
-                    if has_turn {
-                        tpdo.syncs = 0;
-                    }
-                    has_turn
-                }
-                Transmission::RtrSynchronous => true,
-                _ => false,
-            };
-            if has_turn && tpdo.is_usable() {
-                let sample = self.gather(place);
-                let Some(tpdo) = self.node.tpdos.get_mut(place) else { continue };
-                tpdo.sample = Some(sample);
-                if tpdo.is_of_a_period() {
-                    tpdo.is_due = false;
-                    tpdo.is_ready = true;
-                }
-            }
-        }
-        self.poll_tpdos();
-    }
-
-    /// What could not be sent in the period that it belongs to is lost, and that is told.
-    fn lose_late(&mut self, place: usize) {
-        let Some(tpdo) = self.node.tpdos.get_mut(place) else { return };
-        if tpdo.is_ready && tpdo.is_of_a_period() && tpdo.sample.take().is_some() {
-            tpdo.is_ready = false;
-            self.node.core.queue.note_loss();
-        }
-    }
-
-    /// A remote frame that may ask for a TPDO. It is answered within the inhibit time too.
-    pub(crate) fn tpdo_requested(&mut self, can_id: CanId) {
-        if self.node.core.state != NmtState::Operational {
-            return;
-        }
-        // Bit 30 of the COB-ID forbids remote requests, or the device does.
-        let is_asked = |tpdo: &Tpdo| {
-            tpdo.is_usable() && tpdo.parameters.allows_rtr && tpdo.parameters.can_id == Some(can_id)
-        };
-        let Some(place) = self.node.tpdos.iter().position(is_asked) else { return };
-        let Some(tpdo) = self.node.tpdos.get_mut(place) else { return };
-        if tpdo.meaning() != Transmission::RtrSynchronous || tpdo.sample.is_some() {
-            tpdo.is_ready = true;
-            self.send(place);
-        }
-    }
-
     /// The present data of a TPDO.
-    fn gather(&mut self, place: usize) -> u64 {
+    pub(super) fn gather(&mut self, place: usize) -> u64 {
         let Some(tpdo) = self.node.tpdos.get(place) else { return 0 };
         let Parameters { number, slots, .. } = tpdo.parameters;
         self.app.tpdo_due(&mut self.node, number);
@@ -350,7 +277,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
     }
 
     /// Sends a TPDO, with the data of its SYNC message where there are any; false where the queue has no room.
-    fn send(&mut self, place: usize) -> bool {
+    pub(super) fn send(&mut self, place: usize) -> bool {
         let Some(tpdo) = self.node.tpdos.get(place).filter(|tpdo| tpdo.is_usable()) else { return true };
         if self.node.core.queue.room() == 0 {
             return false;

@@ -1,8 +1,12 @@
 //! SDO server: expedited, segmented and block transfer (CiA 301 v4.2, 7.2.4).
 
+#[cfg_attr(not(feature = "block-transfer"), path = "../off/block_download.rs")]
 mod block_download;
+#[cfg_attr(not(feature = "block-transfer"), path = "../off/block_upload.rs")]
 mod block_upload;
 mod download;
+#[cfg_attr(not(feature = "further-sdo-servers"), path = "../off/further_servers.rs")]
+mod further;
 mod item;
 mod upload;
 
@@ -12,7 +16,8 @@ use crate::time::Timer;
 use crate::{Entry, Frame, Instant, MOST_DATA, Microseconds};
 use block_download::BlockDownload;
 use block_upload::BlockUpload;
-use edskit_types::{AbortCode, CanId, CobId, Index, NodeId, SubIndex};
+use edskit_types::{AbortCode, CanId, Index, NodeId, SubIndex};
+use further::further_servers;
 use item::Item;
 
 /// How long a client may be silent during a transfer.
@@ -35,8 +40,6 @@ const ABORT: u8 = 0x80;
 const COMMAND: u8 = 0xE0;
 /// The first server, which every node has.
 const DEFAULT: Index = Index::SDO_SERVER;
-const REQUEST: u8 = 1;
-const RESPONSE: u8 = 2;
 
 /// An SDO server with its transfer.
 #[derive(Clone, Copy, Debug)]
@@ -147,10 +150,7 @@ impl<A: Application + ?Sized> Context<'_, A> {
     pub(crate) fn configure_servers(&mut self) {
         self.node.servers.fill(SdoServer::NEW);
         let first = [DEFAULT].into_iter();
-        let table = self.node.objects.table;
-        let others = table.entries_from(Index(DEFAULT.0 + 1));
-        let others = others.take_while(|(_, entry)| entry.index.0 < Index::SDO_CLIENT.0);
-        let others = others.filter(|(_, entry)| entry.sub_index.0 == REQUEST).map(|(_, entry)| entry.index);
+        let others = further_servers(self.node.objects.table);
         for (server, index) in self.node.servers.iter_mut().zip(first.chain(others)) {
             server.index = index;
         }
@@ -176,43 +176,6 @@ impl<A: Application + ?Sized> Context<'_, A> {
         }
         if let Some(server) = self.node.servers.get_mut(number) {
             server.can_ids = can_ids;
-        }
-    }
-
-    /// The identifiers that a parameter object names, where both are valid.
-    fn can_ids(&self, index: Index) -> Option<(CanId, CanId)> {
-        Some((self.server_can_id(index, REQUEST)?, self.server_can_id(index, RESPONSE)?))
-    }
-
-    fn server_can_id(&self, index: Index, sub_index: u8) -> Option<CanId> {
-        let cob_id = self.node.objects.value(index, sub_index).map(CobId)?;
-        let is_valid = cob_id.is_valid() && self.check_server(SubIndex(sub_index), cob_id).is_ok();
-        is_valid.then(|| cob_id.can_id())
-    }
-
-    /// What a parameter of a server can be set to.
-    pub(crate) fn check_server(&self, sub_index: SubIndex, cob_id: CobId) -> Result<(), AbortCode> {
-        if ![REQUEST, RESPONSE].contains(&sub_index.0) {
-            return Ok(());
-        }
-        // The identifiers of other nodes' default SDOs are what further channels are made of, although 7.3.5 restricts them.
-        let is_default_sdo = matches!(cob_id.can_id().raw(), 0x581..=0x5FF | 0x601..=0x67F);
-        self.node.check_cob_id(if is_default_sdo { CobId(cob_id.0 | CobId::BIT_31) } else { cob_id })
-    }
-
-    /// A parameter of a server is about to be written. A valid identifier has to be made invalid before it can change.
-    pub(crate) fn check_server_change(
-        &self,
-        index: Index,
-        sub_index: SubIndex,
-        new: CobId,
-    ) -> Result<(), AbortCode> {
-        if ![REQUEST, RESPONSE].contains(&sub_index.0) {
-            return Ok(());
-        }
-        match self.server_can_id(index, sub_index.0) {
-            Some(old) if new.is_valid() && old != new.can_id() => Err(AbortCode::INVALID_VALUE),
-            _ => Ok(()),
         }
     }
 

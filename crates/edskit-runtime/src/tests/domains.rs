@@ -98,6 +98,7 @@ fn four_bytes_count_where_neither_side_says_how_many() {
 
 // U5
 
+#[cfg(all(feature = "block-transfer", feature = "further-sdo-servers"))]
 #[test]
 fn the_application_is_told_of_a_broken_download_once() {
     type End = fn(&mut Bench);
@@ -144,6 +145,7 @@ fn the_application_is_told_of_a_broken_download_once() {
 
 // U8
 
+#[cfg(feature = "block-transfer")]
 #[test]
 fn no_abort_is_answered() {
     for low_bits in 0..=0x1F {
@@ -165,6 +167,7 @@ fn no_abort_is_answered() {
     }
 }
 
+#[cfg(feature = "block-transfer")]
 #[test]
 fn a_block_upload_reads_each_segment_once() {
     let (mut bench, file) = bench();

@@ -54,6 +54,7 @@ fn guarded() -> Bench {
 
 // W10
 
+#[cfg(feature = "guarding")]
 #[test]
 fn heartbeat_ends_guarding() {
     let mut bench = guarded();
@@ -74,6 +75,7 @@ fn heartbeat_ends_guarding() {
 
 // W11
 
+#[cfg(feature = "guarding")]
 #[test]
 fn the_error_of_guarding_goes_with_its_times() {
     for (index, value) in [(0x100C, &[0, 0][..]), (0x100D, &[0]), (0x100C, &[200, 0]), (0x100D, &[9])] {
@@ -85,6 +87,7 @@ fn the_error_of_guarding_goes_with_its_times() {
     }
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn the_error_of_sync_goes_with_what_was_expected() {
     let changes: [&[(u16, &[u8])]; 4] = [
@@ -107,6 +110,7 @@ fn the_error_of_sync_goes_with_what_was_expected() {
     }
 }
 
+#[cfg(feature = "heartbeat-consumer")]
 #[test]
 fn the_error_of_a_heartbeat_goes_with_its_entry() {
     for value in [[0, 0, 0, 0], [0x2C, 1, 99, 0], [0x2C, 1, 98, 0]] {
@@ -122,6 +126,7 @@ fn the_error_of_a_heartbeat_goes_with_its_entry() {
 
 // U4
 
+#[cfg(feature = "heartbeat-consumer")]
 #[test]
 fn a_boot_up_is_no_heartbeat_but_a_sign_of_life() {
     let mut bench = bench();
@@ -157,6 +162,7 @@ fn reserved_values_are_refused() {
 
 // U7
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_producer_without_a_period_takes_the_sync_of_others() {
     let mut bench = bench();
@@ -181,6 +187,7 @@ fn is_silent(bench: &mut Bench) -> bool {
     sent.is_empty()
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_cob_id_that_no_client_could_write_has_no_effect() {
     let restricted =
@@ -217,6 +224,7 @@ fn refused(bench: &mut Bench) -> Vec<(u16, u8)> {
     refused
 }
 
+#[cfg(all(feature = "heartbeat-consumer", feature = "sync"))]
 #[test]
 fn every_value_of_a_service_is_looked_at() {
     let cases: [(u16, u8, u32); 12] = [
@@ -290,6 +298,7 @@ impl Application for Picky {
     }
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn rules_hold_for_rpdos_and_refusals_are_told() {
     let noted = Rc::new(RefCell::new(Vec::new()));
@@ -332,6 +341,7 @@ fn an_rpdo_brings_a_parameter_as_a_client_does() {
     assert_eq!(bench.node.refused_rpdo_values(), 1);
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn mappings_have_the_granularity_of_the_device() {
     let settings = Settings { node_id: NodeId::new(5).ok(), granularity: 8, ..Settings::DEFAULT };

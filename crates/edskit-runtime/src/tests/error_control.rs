@@ -47,6 +47,7 @@ fn consumer() -> Builder {
         .u8(0x1029, 1, RW, 0)
 }
 
+#[cfg(feature = "heartbeat-consumer")]
 #[test]
 fn a_lost_heartbeat_is_an_error_until_it_comes_back() {
     let mut bench = Bench::new(consumer().build());
@@ -60,6 +61,7 @@ fn a_lost_heartbeat_is_an_error_until_it_comes_back() {
     assert_eq!(bench.ask(0x763, &[5]), [frame(0x85, &[0; 8])]);
 }
 
+#[cfg(feature = "heartbeat-consumer")]
 #[test]
 fn error_behaviour_says_what_follows() {
     for (behaviour, state) in
@@ -75,6 +77,7 @@ fn error_behaviour_says_what_follows() {
     }
 }
 
+#[cfg(feature = "heartbeat-consumer")]
 #[test]
 fn no_node_is_monitored_twice() {
     let mut bench = Bench::new(consumer().build());
@@ -92,6 +95,7 @@ fn guard(bench: &mut Bench) -> Vec<Frame> {
     bench.receive(Frame::remote(CanId::standard(0x705).unwrap(), 1))
 }
 
+#[cfg(feature = "guarding")]
 #[test]
 fn guarding_is_answered_with_a_toggle_bit() {
     let mut bench = guarded();
@@ -104,6 +108,7 @@ fn guarding_is_answered_with_a_toggle_bit() {
     assert!(guard(&mut Bench::new(plain().build())).is_empty(), "without 100Ch there is no guarding");
 }
 
+#[cfg(feature = "guarding")]
 #[test]
 fn life_guarding_begins_with_the_first_request() {
     let mut bench = guarded();

@@ -37,6 +37,7 @@ fn assert_given(bench: &mut Bench) {
     assert_eq!(bench.read(0x1008, 0), Ok(b"Pump".into()));
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn what_is_given_outlives_everything_but_power_off() {
     for is_given_before in [true, false] {
@@ -68,6 +69,7 @@ fn what_is_given_outlives_everything_but_power_off() {
     }
 }
 
+#[cfg(feature = "lss")]
 #[test]
 fn lss_knows_the_node_by_what_is_given() {
     let mut bench = self::bench(GIVEN, Memory::default());
@@ -92,6 +94,7 @@ impl Application for Dropped {
 }
 
 /// An older firmware had the value among the parameters.
+#[cfg(feature = "storage")]
 #[test]
 fn what_an_older_firmware_has_stored_does_not_come_back() {
     let memory = Memory::default();

@@ -6,15 +6,19 @@ mod domains;
 mod emergencies;
 mod error_changes;
 mod error_control;
+#[cfg(not(feature = "default"))]
+mod features;
 mod given;
 mod hooks;
 mod hostile;
+#[cfg(feature = "lss")]
 mod lss;
 mod nmt;
 mod pdo;
 mod pdo_changes;
 mod room;
 mod sdo;
+#[cfg(feature = "block-transfer")]
 mod sdo_block;
 mod storage;
 mod sync;

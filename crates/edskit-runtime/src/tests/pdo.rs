@@ -32,6 +32,7 @@ fn sync(bench: &mut Bench) -> Vec<Frame> {
 
 const CONTENT: [u8; 3] = [0x34, 0x12, 7];
 
+#[cfg(feature = "sync")]
 #[test]
 fn synchronous_tpdos() {
     for (every, expected) in [(1, [1, 1, 1, 1]), (2, [0, 1, 0, 1]), (240, [0; 4])] {
@@ -47,6 +48,7 @@ fn synchronous_tpdos() {
     }
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn an_acyclic_tpdo_needs_an_event_and_a_sync() {
     let mut bench = bench(0);
@@ -89,6 +91,7 @@ fn a_changed_value_is_an_event_of_the_pdos_that_carry_it() {
     assert_eq!(bench.poll().len(), 1);
 }
 
+#[cfg(all(feature = "rtr", feature = "sync"))]
 #[test]
 fn remote_requests() {
     let request = Frame::remote(CanId::standard(0x185).unwrap(), 8);
@@ -115,6 +118,7 @@ fn rpdos_count_in_operational_only() {
     assert_eq!(bench.read(0x2000, 0), Ok([1, 2].into()));
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_synchronous_rpdo_counts_from_the_sync_on() {
     let mut bench = bench(1);
@@ -166,6 +170,7 @@ fn remap(bench: &mut Bench, pdo: u16, mapping: &[u32]) -> Result<(), u32> {
     bench.write(pdo, 1, &cob_id)
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn mappings_can_change() {
     let mut bench = bench(1);
@@ -200,6 +205,7 @@ fn mappings_that_cannot_be() {
     assert_eq!(bench.write(0x1A00, 0, &[9]), Err(0x0604_0042), "there are eight places");
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn the_order_of_writes_is_prescribed_in_every_state() {
     for command in [1, 128] {
@@ -221,6 +227,7 @@ fn the_order_of_writes_is_prescribed_in_every_state() {
     }
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn the_start_value_of_sync() {
     let mut bench = bench(2);
@@ -234,6 +241,7 @@ fn the_start_value_of_sync() {
     assert_eq!(sent, [4, 6, 8, 10]);
 }
 
+#[cfg(all(feature = "rtr", feature = "sync"))]
 #[test]
 fn why_a_tpdo_is_not_sent() {
     let why = |bench: &mut Bench| bench.node.why_not_sent(bench.now, 1);
@@ -256,6 +264,7 @@ fn why_a_tpdo_is_not_sent() {
     assert_eq!(why(&mut Bench::new(wrong)), NotSent::MappingInvalid);
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_reset_brings_the_configuration_back() {
     let mut bench = bench(1);
@@ -280,6 +289,7 @@ impl Application for Doubling {
     }
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn hooks_see_pdos_come_and_go() {
     let mapping = [0x2000_0010, 0x2001_0008];

@@ -67,6 +67,7 @@ fn times(sent: &[(u64, Frame)]) -> Vec<u64> {
 
 // W1
 
+#[cfg(feature = "sync")]
 #[test]
 fn waiting_data_end_with_their_rpdo() {
     type Change = fn(&mut Bench);
@@ -111,6 +112,7 @@ fn waiting_data_end_with_their_rpdo() {
     }
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn waiting_data_stay_where_nothing_is_another() {
     type Change = fn(&mut Bench);
@@ -201,6 +203,7 @@ fn a_wrong_length_ends_with_its_rpdo() {
 
 // W3
 
+#[cfg(all(feature = "rtr", feature = "sync"))]
 #[test]
 fn a_sample_ends_with_what_it_was_taken_for() {
     type Change = fn(&mut Bench);
@@ -262,6 +265,7 @@ fn the_event_timer_follows_type_and_time_in_any_order() {
     }
 }
 
+#[cfg(all(feature = "rtr", feature = "sync"))]
 #[test]
 fn every_change_of_class_ends_what_the_old_one_did() {
     for to in [0, 1, 240, 252, 253] {
@@ -286,6 +290,7 @@ fn every_change_of_class_ends_what_the_old_one_did() {
     assert_eq!(sync(&mut bench).len() + sync(&mut bench).len(), 1, "the same type changes nothing");
 }
 
+#[cfg(all(feature = "rtr", feature = "sync"))]
 #[test]
 fn an_event_stays_one_in_types_that_have_events_only() {
     for (through, is_kept) in [(0, true), (1, false), (253, false)] {
@@ -325,6 +330,7 @@ fn an_old_inhibit_time_does_not_hold_a_new_pdo() {
     assert_eq!(times(&bench.pass(60)), [20_000, 40_000, 60_000]);
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_window_that_runs_follows_its_parameter() {
     let cases: [(u32, bool); 3] = [(50_000, true), (0, false), (200_000, false)];
@@ -382,6 +388,7 @@ impl Application for Eventful {
     }
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_written_value_is_an_event_where_the_device_says_so() {
     for transmission in [255, 254, 0, 1] {

@@ -53,6 +53,7 @@ fn identifiers(sent: &[Frame]) -> Vec<u32> {
 
 // W6
 
+#[cfg(feature = "sync")]
 #[test]
 fn every_synchronous_tpdo_follows_its_sync_once() {
     for count in [24, 40, 100] {
@@ -78,6 +79,7 @@ fn what_waits_for_room_has_the_values_of_its_sync() {
     assert!(drained(&mut bench, 5).iter().all(|frame| frame.data() == [0x34, 0x12]));
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn what_is_not_sent_in_its_period_is_lost_and_told() {
     let mut bench = with_tpdos(24, 1);
@@ -106,6 +108,7 @@ fn what_is_not_sent_in_its_period_is_lost_and_told() {
     assert_eq!(bench.poll(), [frame(0x85, &OVERRUN)]);
 }
 
+#[cfg(all(feature = "rtr", feature = "sync"))]
 #[test]
 fn no_event_and_no_request_starves() {
     let mut bench = with_tpdos(40, 255);
@@ -141,6 +144,7 @@ fn full() -> Bench {
     bench
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn other_services_wait_for_room_too() {
     let mut bench = full();
@@ -172,6 +176,7 @@ fn other_services_wait_for_room_too() {
     assert_eq!(identifiers(&drained(&mut bench, 16)).iter().filter(|can_id| **can_id == 0x80).count(), 1);
 }
 
+#[cfg(feature = "guarding")]
 #[test]
 fn an_answer_that_is_not_sent_does_not_toggle() {
     let mut bench = full();
@@ -192,6 +197,7 @@ fn monitors(bench: &mut Bench, count: u8) {
     }
 }
 
+#[cfg(feature = "heartbeat-consumer")]
 #[test]
 fn any_number_of_errors_is_present() {
     let mut bench = Bench::new(device().build());
@@ -206,6 +212,7 @@ fn any_number_of_errors_is_present() {
     }
 }
 
+#[cfg(feature = "heartbeat-consumer")]
 #[test]
 fn the_device_has_room_for_its_own_errors_whatever_the_services_find() {
     let mut bench = Bench::new(device().build());

@@ -98,6 +98,7 @@ fn stopped_means_no_sdo() {
     assert!(bench.ask(0x605, &[0x40, 0, 0x10, 0, 0, 0, 0, 0]).is_empty());
 }
 
+#[cfg(feature = "further-sdo-servers")]
 #[test]
 fn a_second_server_has_its_own_identifiers() {
     let off = 0x8000_0000;

@@ -84,6 +84,7 @@ impl Bench {
     }
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn what_is_saved_survives_power_off() {
     let memory = Memory::default();
@@ -107,6 +108,7 @@ fn what_is_saved_survives_power_off() {
     assert_eq!((again.read(0x2000, 0), again.read(0x1017, 0)), (Ok([0x34, 0x12].into()), Ok([0, 0].into())));
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn groups_are_saved_one_by_one() {
     let memory = Memory::default();
@@ -119,6 +121,7 @@ fn groups_are_saved_one_by_one() {
     assert_eq!((bench.read(0x2000, 0), bench.read(0x1017, 0)), (Ok([7, 7].into()), Ok([0, 0].into())));
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn every_torn_record_is_noticed() {
     let memory = Memory::default();
@@ -181,6 +184,7 @@ impl Application for Dropped {
     }
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn stored_values_survive_an_update_one_by_one() {
     let memory = Memory::default();
@@ -237,6 +241,7 @@ fn stored_values_survive_an_update_one_by_one() {
     assert_eq!(bench.read(0x2000, 0), Ok([6, 6].into()));
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn a_stored_value_that_no_client_could_write_is_left() {
     let device = |cob_id: u32| {
@@ -260,6 +265,7 @@ fn a_stored_value_that_no_client_could_write_is_left() {
 
 // U2
 
+#[cfg(all(feature = "lss", feature = "storage"))]
 #[test]
 fn what_follows_the_node_id_is_stored_so() {
     let memory = Memory::default();
@@ -299,6 +305,7 @@ fn what_follows_the_node_id_is_stored_so() {
     }
 }
 
+#[cfg(all(feature = "lss", feature = "storage"))]
 #[test]
 fn what_follows_the_node_id_is_right_without_one() {
     let device = || {

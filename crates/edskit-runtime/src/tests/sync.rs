@@ -21,6 +21,7 @@ fn produce(bench: &mut Bench, overflow: u8) {
     bench.write(0x1005, 0, &[0x80, 0, 0, 0x40]).unwrap();
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn the_producer_keeps_its_period_and_counts() {
     let mut bench = Bench::new(device().build());
@@ -35,6 +36,7 @@ fn the_producer_keeps_its_period_and_counts() {
     assert_eq!(bench.pass(200).first().map(|(_, frame)| frame.data().to_vec()), Some([1].into()));
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn without_an_overflow_value_there_is_no_counter() {
     let mut bench = Bench::new(device().build());
@@ -42,6 +44,7 @@ fn without_an_overflow_value_there_is_no_counter() {
     assert_eq!(bench.pass(150), [(100_000, frame(0x80, &[]))]);
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn what_may_be_written_when() {
     let mut bench = Bench::new(device().build());
@@ -56,6 +59,7 @@ fn what_may_be_written_when() {
     assert_eq!(bench.write(0x1005, 0, &[0, 0, 0, 0]), Err(0x0609_0030));
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_wrong_length_is_an_error() {
     let mut bench = Bench::new(device().build());
@@ -72,6 +76,7 @@ impl Application for Clock {
     }
 }
 
+#[cfg(feature = "time")]
 #[test]
 fn time_of_day() {
     let noted = Rc::new(Cell::new(None));

@@ -199,6 +199,7 @@ fn a_sub_index_is_a_set_of_bits() {
     assert_eq!(bench.read(0x2310, 1), Err(AbortCode::OBJECT_DOES_NOT_EXIST.0));
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn values_of_the_device_are_mapped() {
     let mut bench = bench();
@@ -225,6 +226,7 @@ fn there_are_expedited_transfers_only() {
     assert_eq!(bench.sdo([0x61, 0, 0, 0, 0, 0, 0, 0]), Err(AbortCode::UNKNOWN_COMMAND.0));
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn a_pdo_is_remapped_while_it_is_valid() {
     let mut bench = bench();
@@ -248,6 +250,7 @@ fn a_pdo_is_remapped_while_it_is_valid() {
     bench.write(TPDO, 3, &[10, 0]).unwrap();
 }
 
+#[cfg(feature = "sync")]
 #[test]
 fn the_device_changes_its_pdos_itself() {
     let mut bench = bench();
@@ -257,6 +260,7 @@ fn the_device_changes_its_pdos_itself() {
     assert_eq!(sent, [frame(0x1A5, &[0x34, 0x12])]);
 }
 
+#[cfg(all(feature = "rtr", feature = "sync"))]
 #[test]
 fn transmission_types_mean_what_the_manual_says() {
     let mut bench = bench();

@@ -171,6 +171,7 @@ fn a_torn_record_of_the_device_is_noticed() {
     assert_eq!(node.kept(7, &mut [0; 4]), Ok(None));
 }
 
+#[cfg(feature = "lss")]
 #[test]
 fn lss_has_conditions() {
     let (mut bench, told) = sensor(Memory::default(), 0);
@@ -202,6 +203,7 @@ fn it_starts_by_itself_where_its_object_says_so() {
     }
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn storing_is_the_devices_own() {
     let memory = Memory::default();
@@ -220,6 +222,7 @@ fn storing_is_the_devices_own() {
     assert_eq!(again.read(0x2102, 0), Ok(vec![1, 0]));
 }
 
+#[cfg(feature = "storage")]
 #[test]
 fn failures_of_the_memory_are_told() {
     let (mut bench, told) = sensor(crate::NoStorage, 0);
