@@ -50,6 +50,7 @@ impl Lss {
     }
 
     /// Whether the node is an LSS slave.
+    #[inline]
     pub(crate) fn exists(settings: &Settings) -> bool {
         settings.has_lss
     }

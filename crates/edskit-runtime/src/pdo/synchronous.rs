@@ -6,6 +6,7 @@ use crate::context::Context;
 use edskit_types::{NmtState, Transmission};
 
 /// Whether the data of an RPDO wait for the SYNC message.
+#[inline]
 pub(super) fn waits_for_sync(meaning: Transmission) -> bool {
     meaning == Transmission::Synchronous
 }
@@ -17,6 +18,7 @@ pub(super) fn knows(_: Transmission) -> bool {
 
 impl Tpdo {
     /// Whether it is sent in the period that its SYNC message has begun, and in no other.
+    #[inline]
     pub(super) fn is_of_a_period(&self) -> bool {
         matches!(self.meaning(), Transmission::SynchronousAcyclic | Transmission::SynchronousCyclic(_))
     }
