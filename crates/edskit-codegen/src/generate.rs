@@ -1,7 +1,8 @@
 //! From the bytes of an EDS to code, without any file.
 
 use crate::gate::Gate;
-use crate::{Layout, Naming, Problem, SideFile, lay_out, render};
+use crate::render::{called, renamed, render_called};
+use crate::{Layout, Naming, Problem, SideFile, lay_out};
 use edskit_lint::{FileKind, Linter, Severity};
 use edskit_model::Datasheet;
 
@@ -67,8 +68,9 @@ pub fn generate(
     warnings.extend_from_slice(&layout.notes);
     warnings.extend(layout.cob_id_problems(None));
     warnings.extend(unused);
-    warnings.extend(crate::render::renamed(&layout));
-    Ok(Generated { code: render(&layout, naming), layout, warnings })
+    let called = called(&layout);
+    warnings.extend(renamed(&layout, &called));
+    Ok(Generated { code: render_called(&layout, naming, called), layout, warnings })
 }
 
 fn read_side_file(text: Option<&str>) -> Result<SideFile, Vec<Problem>> {

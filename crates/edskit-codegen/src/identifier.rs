@@ -97,7 +97,7 @@ pub(crate) fn words(text: &str) -> String {
             if !words.is_empty() && (begins || !before.is_alphanumeric()) {
                 words.push('_');
             }
-            match ascii(character) {
+            match if is_ascii { None } else { ascii(character) } {
                 Some(letters) => words.push_str(letters),
                 None => words.push(character),
             }

@@ -6,6 +6,7 @@ mod view;
 
 use crate::Layout;
 use askama::Template;
+pub(crate) use handles::{Called, called};
 pub(crate) use renamed::renamed;
 use view::View;
 
@@ -53,8 +54,13 @@ pub(crate) fn file_name(path: &str) -> &str {
 /// Names of the EDS stand in comments only, and identifiers are made from their letters and digits.
 #[must_use]
 pub fn render(layout: &Layout, naming: &Naming) -> String {
+    render_called(layout, naming, called(layout))
+}
+
+/// The same with names that are known.
+pub(crate) fn render_called(layout: &Layout, naming: &Naming, called: Vec<Called>) -> String {
     // Neither the view's types nor a string fail to be written.
-    View::new(layout, naming)
+    View::new(layout, naming, called)
         .render()
         .map(|code| code + "\n")
         .unwrap_or_else(|error| format!("compile_error!({:?});\n", error.to_string()))

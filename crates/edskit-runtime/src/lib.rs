@@ -8,7 +8,8 @@
 //! |---|---|
 //! | the node, and what drives it | [`Node`], [`Settings`], [`Commissioning`], [`Frame`], [`Instant`] |
 //! | the object dictionary | [`Dictionary`], [`Objects`], [`Handle`], [`Constant`], [`Key`], [`Table`], [`Entry`], [`Flags`] |
-//! | what a device adds | [`Application`], [`Storage`] |
+//! | what a device adds, and does otherwise | [`Application`], [`PdoPolicy`], [`LssRequest`], [`Storage`] |
+//! | what it does with the node | [`Services`], [`BusState`] |
 //! | what a main loop drives | [`Device`], [`NodeDevice`] |
 //! | errors | [`EmcyError`], [`Emergency`] |
 //! | what can be asked | [`NotSent`], [`Leds`] |
@@ -39,8 +40,7 @@
 //! use edskit_runtime::types::{AbortCode, CanId, DataType, Index, SubIndex};
 //! use edskit_runtime::{
 //!     Application, Dictionary, Entry, Flags, Frame, Handle, Instant, Key, Memory, NoStorage, Node, Parts, Position,
-//!     Services,
-//!     Settings, Table,
+//!     Services, Settings, Table,
 //! };
 //!
 //! const VARIABLE: Flags = Flags::READ.and(Flags::VARIABLE);

@@ -107,8 +107,7 @@ fn arrays(layout: &Layout, object: Range<usize>) -> Vec<Range<usize>> {
     described.into_iter().filter_map(whole).collect()
 }
 
-pub(super) fn handles(layout: &Layout) -> Handles {
-    let mut called = called(layout);
+pub(super) fn handles(layout: &Layout, mut called: Vec<Called>) -> Handles {
     called.sort_by_key(|called| (called.entries.start, called.is_array));
     let key = |called: &Called| {
         let entry = &layout.entries[called.entries.start];

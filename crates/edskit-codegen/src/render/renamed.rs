@@ -1,6 +1,6 @@
 //! Names that are not those of the EDS: what is told of them.
 
-use super::handles::{Called, called};
+use super::Called;
 use crate::names::{MOST_CHARACTERS, Reason};
 use crate::text::for_docs;
 use crate::{Layout, Problem};
@@ -10,8 +10,7 @@ use edskit_lint::Severity;
 const MOST_TOLD: usize = 5;
 
 /// The names that are cut, that have lost letters, and that another entry has already, with their places.
-pub(crate) fn renamed(layout: &Layout) -> Vec<Problem> {
-    let called = called(layout);
+pub(crate) fn renamed(layout: &Layout, called: &[Called]) -> Vec<Problem> {
     let mut problems = Vec::new();
     let groups: [fn(Reason) -> bool; 3] = [
         |reason| reason == Reason::Lost,
@@ -24,7 +23,7 @@ pub(crate) fn renamed(layout: &Layout) -> Vec<Problem> {
             .filter_map(|called| Some((called, called.name.reason.filter(|r| is_of_group(*r))?)));
         let concerned: Vec<(&Called, Reason)> = concerned.collect();
         for (place, (own, reason)) in concerned.iter().take(MOST_TOLD).enumerate() {
-            let mut message = message(layout, own, *reason, &called);
+            let mut message = message(layout, own, *reason, called);
             let more = concerned.len().saturating_sub(MOST_TOLD);
             if place + 1 == MOST_TOLD && more > 0 {
                 message.push_str(&format!("; and so it is with {more} more"));

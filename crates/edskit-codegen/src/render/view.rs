@@ -1,6 +1,6 @@
 //! What the template shows, ready-made.
 
-use super::handles::{HandleRow, Handles, KeyRow, handles};
+use super::handles::{Called, HandleRow, Handles, KeyRow, handles};
 use super::{Naming, file_name};
 use crate::text::{for_comment, for_docs, for_message};
 use crate::{Counts, InputFile, Layout, Place, Source};
@@ -67,8 +67,8 @@ struct CheckRow {
 }
 
 impl<'a> View<'a> {
-    pub(super) fn new(layout: &'a Layout, naming: &'a Naming) -> Self {
-        let Handles { keys, rows, imports } = handles(layout);
+    pub(super) fn new(layout: &'a Layout, naming: &'a Naming, called: Vec<Called>) -> Self {
+        let Handles { keys, rows, imports } = handles(layout, called);
         let eds = for_comment(file_name(&naming.eds));
         Self {
             naming,
