@@ -131,3 +131,29 @@ fn the_inclinometers_have_the_objects_of_the_ledger() {
 fn the_pressure_transmitter_has_the_objects_of_the_ledger() {
     agrees_with_the_table("KHC.eds", "khc.md", None);
 }
+
+// IN-EDS-02, IN-EDS-03, IN-EDS-04, IN-EDS-06, KH-EDS-03, KH-EDS-04
+#[test]
+fn device_information() {
+    for (name, ten, granularity, transmit_pdos, maker, product, revision) in [
+        ("IN88_1D.eds", 1, 16, 2, "0x00000013", "0", "0x0000006C"),
+        ("IN88_2D.eds", 1, 16, 2, "0x00000013", "0x08082721", "0x0000006C"),
+        ("KHC.eds", 0, 8, 1, "0x00000093", "0x2043484B", "0x00010001"),
+    ] {
+        let section = sections(&file(name)).remove("DeviceInfo").unwrap();
+        let lines: BTreeSet<_> = section.lines().collect();
+        let mut expected: Vec<_> =
+            [20, 50, 125, 250, 500, 800, 1000].map(|bit_rate| format!("BaudRate_{bit_rate}=1")).into();
+        expected.push(format!("BaudRate_10={ten}"));
+        expected.push(format!("Granularity={granularity}"));
+        expected.push(format!("NrOfTXPDO={transmit_pdos}"));
+        expected.push(format!("VendorNumber={maker}"));
+        expected.push(format!("ProductNumber={product}"));
+        expected.push(format!("RevisionNumber={revision}"));
+        let fixed = ["NrOfRXPDO=0", "LSS_Supported=1", "SimpleBootUpSlave=1", "SimpleBootUpMaster=0"];
+        expected.extend(fixed.map(str::to_owned));
+        for line in expected {
+            assert!(lines.contains(line.as_str()), "{name}: {line}");
+        }
+    }
+}
