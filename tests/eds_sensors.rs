@@ -5,13 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use edskit_model::{Datasheet, SectionKind};
 
 fn file(name: &str) -> String {
-    std::fs::read_to_string(edskit_tests::root().join("eds").join(name)).unwrap()
+    std::fs::read_to_string(edskit_tests::root().join("eds").join(name)).expect("it is shipped")
 }
 
 /// The sections of a file by name, each as written, with the comments above it.
 fn sections(text: &str) -> BTreeMap<String, String> {
     let block = |block: &str| {
-        let name = block.lines().find_map(|line| line.strip_prefix('[')?.strip_suffix(']')).unwrap();
+        let name = block
+            .lines()
+            .find_map(|line| line.strip_prefix('[')?.strip_suffix(']'))
+            .expect("each block begins with a header");
         (name.to_owned(), block.to_owned())
     };
     text.trim_end().split("\n\n").map(block).collect()
@@ -53,11 +56,8 @@ fn the_two_inclinometers_share_what_is_not_special_to_one() {
 
 /// The rows of the object table of a ledger by section name; `None`, said aloud, where the ledger is not there.
 fn table(ledger: &str, variant: Option<&str>) -> Option<BTreeMap<String, Vec<String>>> {
-    let path = edskit_tests::root().join("../shared/ledger").join(ledger);
-    let Ok(text) = std::fs::read_to_string(&path) else {
-        eprintln!("left out: {ledger} is not here, nothing was compared with it");
-        return None;
-    };
+    let folder = edskit_tests::shared("the comparison of the data sheets with their ledgers")?;
+    let text = std::fs::read_to_string(folder.join("ledger").join(ledger)).expect("the ledger is there");
     let mut rows = BTreeMap::new();
     for line in text.lines().filter(|line| line.starts_with("| ")) {
         let cells: Vec<_> =
@@ -97,7 +97,7 @@ fn agrees_with_the_table(name: &str, ledger: &str, variant: Option<&str>) {
     let described = sections(&text).into_keys().filter(|name| name.as_bytes()[0].is_ascii_digit());
     assert_eq!(described.collect::<BTreeSet<_>>(), rows.keys().cloned().collect(), "{name}");
     for (section, row) in rows {
-        let found = sheet.section(SectionKind::of(section.as_bytes())).unwrap();
+        let found = sheet.section(SectionKind::of(section.as_bytes())).expect("the section is there");
         let value = |key: &str| {
             let entry = found.entries().find(|entry| entry.key_text() == key);
             entry.map(|entry| entry.text().into_owned())
@@ -140,7 +140,7 @@ fn device_information() {
         ("IN88_2D.eds", 1, 16, 2, "0x00000013", "0x08082721", "0x0000006C"),
         ("KHC.eds", 0, 8, 1, "0x00000093", "0x2043484B", "0x00010001"),
     ] {
-        let section = sections(&file(name)).remove("DeviceInfo").unwrap();
+        let section = sections(&file(name)).remove("DeviceInfo").expect("every file has it");
         let lines: BTreeSet<_> = section.lines().collect();
         let mut expected: Vec<_> =
             [20, 50, 125, 250, 500, 800, 1000].map(|bit_rate| format!("BaudRate_{bit_rate}=1")).into();
