@@ -178,9 +178,9 @@ fn compact() -> Vec<Defect> {
 
 fn flags() -> Vec<Defect> {
     vec![
-        added("OBJ018", "reserved bits in ObjFlags", is_object_variable, "ObjFlags=0x11"),
+        added("OBJ018", "reserved bits in ObjFlags", is_without_flags, "ObjFlags=0x11"),
         value("OBJ018", "ObjFlags with bit 31", "ObjFlags", |_| true, "0x80000001"),
-        added("OBJ019", "ObjFlags of 0", is_object_variable, "ObjFlags=0x0"),
+        added("OBJ019", "ObjFlags of 0", is_without_flags, "ObjFlags=0x0"),
         missing("OBJ020", "store or restore without ObjFlags", "ObjFlags", Section::is_sub_object),
         Defect::new("OBJ025", "an object with the name of another", |base| {
             let objects =
@@ -339,4 +339,9 @@ fn in_decimal(base: &Base, index: u16) -> Option<Mutant> {
         mutant.rewrite_too(sub.header, format!("[{index:X}sub{number}]"))
     });
     Some(named.expect(subs[10].header))
+}
+
+/// An object that is a variable and says nothing of downloads.
+fn is_without_flags(section: &Section) -> bool {
+    is_object_variable(section) && section.value("ObjFlags").is_empty()
 }

@@ -76,13 +76,15 @@ fn types() -> Vec<Defect> {
 fn timers() -> Vec<Defect> {
     vec![
         value("PDO015", "a SYNC start value of 241", "DefaultValue", is_sync_start, "241"),
-        value_of(
-            "PDO015",
-            "a SYNC start value without effect",
-            "DefaultValue",
-            is_tpdo_type,
-            |section, _| (section.number("DefaultValue") == Some(1)).then(|| "254".to_owned()),
-        )
+        Defect::new("PDO015", "a SYNC start value without effect", |base| {
+            let types = base
+                .sections_where(|section| is_tpdo_type(section) && section.number("DefaultValue") == Some(1));
+            let wrong = types.into_iter().filter_map(|section| {
+                base.sub_object(section.index()?, 6)?;
+                Some(Mutant::of(base).set(section.entry("DefaultValue")?, "254"))
+            });
+            wrong.collect()
+        })
         .by_label(),
         Defect::new("PDO016", "an event timer of a synchronous TPDO", |base| {
             let types = base

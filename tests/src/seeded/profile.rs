@@ -18,7 +18,8 @@ pub(super) fn defects() -> Vec<Defect> {
             .with_consequence("PDO004", "the PDOs of the drive map it"),
         once("PRF002", "another profile, whose objects are missing", |base| {
             let modular = base.section("SupportedModules").is_some();
-            let kind = base.entry("1000", "DefaultValue").filter(|_| !modular)?;
+            let is_encoder = base.section("1000")?.value("DefaultValue").ends_with("019A");
+            let kind = base.entry("1000", "DefaultValue").filter(|_| !modular && !is_encoder)?;
             Some(Mutant::of(base).set(kind, "0x0008019A"))
         }),
         sub_object_gone("no sub-index 01h of the parameters to store", 0x1010),

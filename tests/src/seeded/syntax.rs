@@ -120,6 +120,7 @@ fn lines() -> Vec<Defect> {
             joined.collect()
         })
         .with_consequence("PDO018", SWALLOWED)
+        .with_consequence("SYN017", SWALLOWED)
         .with_consequence("VAL002", SWALLOWED),
         Defect::new("SYN009", "a blank before the `=`", |base| {
             entries(base, |key, value| format!("{key} = {value}"))

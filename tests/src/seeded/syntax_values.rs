@@ -55,6 +55,8 @@ fn numbers() -> Vec<Defect> {
         value("SYN018", "a leading zero at a bit rate", "Baudrate", any, "0250"),
         value_of("SYN018", "a leading zero at a limit", "HighLimit", is_integer, |section, old| {
             let decimal = section.is_of_manufacturer() && section.sub_index() != Some(0);
+            // A single digit is the same number in both readings.
+            let decimal = decimal && old.len() > 1;
             (decimal && old.bytes().all(|byte| (b'0'..b'8').contains(&byte))).then(|| format!("0{old}"))
         }),
     ]

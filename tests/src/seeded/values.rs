@@ -111,9 +111,13 @@ fn limits() -> Vec<Defect> {
             });
             all.collect()
         }),
-        value_of("VAL004", "a default above the upper limit", "DefaultValue", has_limits, |section, _| {
-            Some((section.number("HighLimit")? + 1).to_string())
-        }),
+        value_of(
+            "VAL004",
+            "a default above the upper limit",
+            "DefaultValue",
+            has_own_limits,
+            |section, _| Some((section.number("HighLimit")? + 1).to_string()),
+        ),
         value_of("VAL004", "a default below the lower limit", "DefaultValue", has_low_limit, |section, _| {
             Some((section.number("LowLimit")? - 1).to_string())
         }),
@@ -147,7 +151,7 @@ fn limits() -> Vec<Defect> {
         added("VAL005", "a limit of 5 of a BOOLEAN", |section| section.is_type(1), "HighLimit=5"),
         Defect::new("VAL012", "the limits of an UNSIGNED8", |base| {
             let sections = base.sections_where(|section| {
-                section.is_variable() && section.is_type(5) && section.value("HighLimit").is_empty()
+                section.is_variable() && section.is_type(5) && is_unlimited(section)
             });
             let limited = sections.into_iter().map(|section| {
                 let mutant = Mutant::of(base).insert(section.behind_entries(), "LowLimit=0");
@@ -328,4 +332,13 @@ fn is_constant_number(section: &Section) -> bool {
     section.is_variable()
         && section.value("AccessType") == "const"
         && matches!(section.number("DataType"), Some(2..=7))
+}
+
+/// One with limits whose values the standard does not limit besides.
+fn has_own_limits(section: &Section) -> bool {
+    has_limits(section) && !section.is_within(0x1029, 0x1029)
+}
+
+fn is_unlimited(section: &Section) -> bool {
+    ["LowLimit", "HighLimit"].iter().all(|limit| section.value(limit).is_empty())
 }
