@@ -1,7 +1,7 @@
 //! PDO: communication parameters, and what the device information says about PDOs.
 
 use super::base::Section;
-use super::defect::{Defect, once, value, value_of};
+use super::defect::{Defect, once, value};
 use super::dictionary::without_object;
 use super::mutant::Mutant;
 
